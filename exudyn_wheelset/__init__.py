@@ -1,0 +1,1 @@
+"""Profiled wheels on profiled rails for the multibody engine Exudyn."""
