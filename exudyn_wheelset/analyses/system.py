@@ -1,0 +1,264 @@
+"""The one interface that every stability analysis works on: x' = f(x; speed).
+
+The system is autonomous and of first order. Cyclic coordinates (the forward position, the spin
+angle of a wheelset) are already removed, so that a steady run is an equilibrium and hunting is a
+periodic orbit. A vehicle in Exudyn, a reduced lateral model and a textbook equation look the same
+from here: linearisation, continuation, descent and disturbance runs are written once.
+
+States are in SI units and radians. `speed` is the forward speed in m/s; for a system that has no
+forward speed it is any bifurcation parameter.
+"""
+
+from __future__ import annotations
+
+import platform
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import scipy
+from scipy.integrate import solve_ivp
+
+from exudyn_wheelset.errors import AnalysisError
+
+Array = np.ndarray
+
+# Relative step of central differences: the cube root of the rounding unit balances the cut-off
+# error O(h^2) against the rounding error O(1/h).
+DIFFERENCE_STEP = 6.0e-6
+
+
+class SimulationError(AnalysisError):
+    """A simulation that ended early; `times` and `states` hold what was computed before."""
+
+    def __init__(self, message: str, times: Array, states: Array) -> None:
+        super().__init__(message)
+        self.times = times
+        self.states = states
+
+
+class DynamicSystem(ABC):
+    """An autonomous system x' = f(x; speed) of n first-order equations.
+
+    A subclass sets the four attributes and writes `derivative`; everything else has a default
+    that may be overridden by a faster method.
+
+    name                  what the system is, for records and plots
+    state_names           (n) "y [m]", "yaw [rad]", ..., then the velocities; units in brackets
+    scales                (n) typical magnitude of each state, for norms and difference steps
+    displacement_indices  entries whose amplitude (half of peak to peak) is reported
+    """
+
+    name: str
+    state_names: tuple[str, ...]
+    scales: Array
+    displacement_indices: tuple[int, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of states n."""
+        return len(self.state_names)
+
+    @abstractmethod
+    def derivative(self, state: Array, speed: float) -> Array:
+        """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,)."""
+
+    def jacobian(self, state: Array, speed: float) -> Array:
+        """Jacobian df_i/dx_j (n, n) at a state, by central differences over `scales`."""
+        state = np.asarray(state, dtype=float)
+        size = len(state)
+        matrix = np.empty((size, size))
+        shifted = state.copy()
+        for column in range(size):
+            step = DIFFERENCE_STEP * float(self.scales[column])
+            shifted[column] = state[column] + step
+            upper = np.array(self.derivative(shifted, speed))
+            shifted[column] = state[column] - step
+            matrix[:, column] = (upper - self.derivative(shifted, speed)) / (2.0 * step)
+            shifted[column] = state[column]
+        return matrix
+
+    def derivatives(self, states: Array, speed: float) -> Array:
+        """Rates of change (m, n) of m states (m, n)."""
+        result = np.empty(np.shape(states))
+        for row, state in enumerate(states):
+            result[row] = self.derivative(state, speed)
+        return result
+
+    def jacobians(self, states: Array, speed: float) -> Array:
+        """Jacobians (m, n, n) at m states (m, n)."""
+        rows, size = np.shape(states)
+        result = np.empty((rows, size, size))
+        for row, state in enumerate(states):
+            result[row] = self.jacobian(state, speed)
+        return result
+
+    def speed_derivative(self, state: Array, speed: float) -> Array:
+        """Derivative df/dspeed (n,) at a state, by central differences."""
+        step = DIFFERENCE_STEP * max(1.0, abs(speed))
+        upper = np.array(self.derivative(state, speed + step))
+        return (upper - self.derivative(state, speed - step)) / (2.0 * step)
+
+    def equilibrium(self, speed: float, guess: Array | None = None) -> Array:
+        """Steady state (n,) at a forward speed [m/s], f(x; speed) = 0, near `guess` (default 0).
+
+        Damped Newton; a singular Jacobian (a state that the equations leave free) is met by the
+        least-norm step, so such a state stays where the guess puts it. Raises AnalysisError with
+        the reason if no steady state is found.
+        """
+        return newton_equilibrium(self, speed, guess)
+
+    def simulate(self, state: Array, speed: float, times: Array) -> Array:
+        """Motion from `state` (n,) at times[0], sampled at `times` (m,) [s]; shape (m, n).
+
+        Raises SimulationError, which keeps the samples computed so far, if it ends early.
+        """
+        times = np.asarray(times, dtype=float)
+        solution = solve_ivp(
+            lambda _, x: self.derivative(x, speed),
+            (times[0], times[-1]),
+            np.asarray(state, dtype=float),
+            method="LSODA",
+            t_eval=times,
+            rtol=1e-8,
+            atol=1e-9 * np.asarray(self.scales),
+        )
+        states = solution.y.T
+        if not solution.success or not np.all(np.isfinite(states)):
+            finite = int(np.argmin([*np.all(np.isfinite(states), axis=1), False]))
+            raise SimulationError(
+                f"{self.name}: the motion at {speed:g} m/s ended at sample {finite} of "
+                f"{len(times)}: {solution.message}",
+                times[:finite],
+                states[:finite],
+            )
+        return states
+
+    def measures(self) -> dict[str, Any]:
+        """Settings, parameters and versions, for the record kept with every result."""
+        return {
+            "system": self.name,
+            "state_names": list(self.state_names),
+            "scales": [float(value) for value in self.scales],
+            "versions": {
+                "python": platform.python_version(),
+                "numpy": np.__version__,
+                "scipy": scipy.__version__,
+            },
+        }
+
+    def norm(self, state: Array) -> float:
+        """Root mean square of a state measured in `scales`."""
+        return float(np.sqrt(np.mean((np.asarray(state) / self.scales) ** 2)))
+
+
+def newton_equilibrium(
+    system: DynamicSystem,
+    speed: float,
+    guess: Array | None = None,
+    tolerance: float = 1e-9,
+    steps: int = 50,
+) -> Array:
+    """Steady state (n,) by damped Newton from `guess`, to `tolerance` in units of the scales.
+
+    Converged when a full Newton step is below the tolerance. Raises AnalysisError.
+    """
+    scales = np.asarray(system.scales, dtype=float)
+    state = np.zeros(system.size) if guess is None else np.array(guess, dtype=float)
+    rate = np.array(system.derivative(state, speed))
+    if not np.all(np.isfinite(rate)):
+        raise AnalysisError(
+            f"{system.name}: the equations give no finite value at the guess for the equilibrium "
+            f"at {speed:g} m/s; start from a state within the range of the model"
+        )
+    for _ in range(steps):
+        # Rows and columns are measured in the scales, so that the rank decision of the least
+        # squares is one of physics and not of units.
+        matrix = system.jacobian(state, speed) * scales[None, :] / scales[:, None]
+        step = -np.linalg.lstsq(matrix, rate / scales, rcond=1e-11)[0]
+        length = float(np.sqrt(np.mean(step**2)))
+        residual = float(np.linalg.norm(rate / scales))
+        if length < tolerance:
+            return state
+        factor = 1.0
+        while factor > 1e-4:
+            trial = state + factor * scales * step
+            trial_rate = np.array(system.derivative(trial, speed))
+            if np.linalg.norm(trial_rate / scales) < (1.0 - 0.25 * factor) * residual:
+                break
+            factor *= 0.5
+        else:
+            # Rounding is the floor of a stiff system: a step this small is an answer all the same.
+            if length < 1e3 * tolerance:
+                return state
+            raise AnalysisError(
+                f"{system.name}: no equilibrium at {speed:g} m/s: the residual stays at "
+                f"{residual:.3g} (in units of the scales per second); give a nearer guess"
+            )
+        state, rate = trial, trial_rate
+    raise AnalysisError(
+        f"{system.name}: no equilibrium at {speed:g} m/s within {steps} Newton steps, the last "
+        f"step was {length:.3g} of the scales; give a nearer guess"
+    )
+
+
+class FunctionSystem(DynamicSystem):
+    """A system from a plain Python or numba function derivative_function(state, speed) -> (n,).
+
+    `jacobian_function(state, speed) -> (n, n)` and the vectorised `derivatives_function` and
+    `jacobians_function` (states (m, n), speed) replace the defaults where they are given.
+    `displacement_indices` defaults to the first half of the states.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        derivative_function: Callable[[Array, float], Array],
+        state_names: Sequence[str],
+        scales: Sequence[float] | Array,
+        *,
+        displacement_indices: Sequence[int] | None = None,
+        jacobian_function: Callable[[Array, float], Array] | None = None,
+        derivatives_function: Callable[[Array, float], Array] | None = None,
+        jacobians_function: Callable[[Array, float], Array] | None = None,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.name = name
+        self.state_names = tuple(state_names)
+        self.scales = np.array(scales, dtype=float)
+        size = len(self.state_names)
+        if self.scales.shape != (size,) or not np.all(self.scales > 0.0):
+            raise AnalysisError(
+                f"{name}: scales must be {size} positive numbers, one a state, got "
+                f"{self.scales.tolist()}"
+            )
+        if displacement_indices is None:
+            displacement_indices = range(max(1, size // 2))
+        self.displacement_indices = tuple(displacement_indices)
+        self.parameters = dict(parameters or {})
+        self._derivative = derivative_function
+        self._jacobian = jacobian_function
+        self._derivatives = derivatives_function
+        self._jacobians = jacobians_function
+
+    def derivative(self, state: Array, speed: float) -> Array:
+        return np.asarray(self._derivative(np.asarray(state, dtype=float), float(speed)))
+
+    def jacobian(self, state: Array, speed: float) -> Array:
+        if self._jacobian is None:
+            return super().jacobian(state, speed)
+        return np.asarray(self._jacobian(np.asarray(state, dtype=float), float(speed)))
+
+    def derivatives(self, states: Array, speed: float) -> Array:
+        if self._derivatives is None:
+            return super().derivatives(states, speed)
+        return np.asarray(self._derivatives(np.asarray(states, dtype=float), float(speed)))
+
+    def jacobians(self, states: Array, speed: float) -> Array:
+        if self._jacobians is None:
+            return super().jacobians(states, speed)
+        return np.asarray(self._jacobians(np.asarray(states, dtype=float), float(speed)))
+
+    def measures(self) -> dict[str, Any]:
+        return {**super().measures(), "parameters": self.parameters}
