@@ -203,6 +203,25 @@ def newton_equilibrium(
     )
 
 
+def as_system(vehicle: Any) -> DynamicSystem:
+    """The DynamicSystem of a vehicle: itself, or what its method `dynamic_system()` gives.
+
+    Raises AnalysisError for anything else.
+    """
+    if isinstance(vehicle, DynamicSystem):
+        return vehicle
+    maker = getattr(vehicle, "dynamic_system", None)
+    if callable(maker):
+        system = maker()
+        if isinstance(system, DynamicSystem):
+            return system
+    raise AnalysisError(
+        f"{type(vehicle).__name__} cannot be analysed: pass a DynamicSystem (FunctionSystem for "
+        "equations, ExudynSystem for an Exudyn model) or an object whose method dynamic_system() "
+        "returns one"
+    )
+
+
 class FunctionSystem(DynamicSystem):
     """A system from a plain Python or numba function derivative_function(state, speed) -> (n,).
 
