@@ -177,7 +177,8 @@ class Profile:
             return self
         listed = ", ".join(f"y = {1e3 * self.y[i]:.3f} mm" for i in sorted(dropped)[:10])
         more = "" if len(dropped) <= 10 else f" and {len(dropped) - 10} more"
-        remark = f"{len(dropped)} outliers beyond {1e6 * tolerance:g} micrometres removed: {listed}{more}"
+        limit = f"{1e6 * tolerance:g} micrometres"
+        remark = f"{len(dropped)} outliers beyond {limit} removed: {listed}{more}"
         return replace(self, y=self.y[keep], z=self.z[keep], remarks=(*self.remarks, remark))
 
     def resampled(self, spacing: float) -> Profile:
@@ -243,7 +244,7 @@ class Profile:
 
 
 def check_points(name: str, y: FloatArray, z: FloatArray) -> None:
-    """Raise ProfileError unless y, z [m] are enough finite points in order and of a profile's size."""
+    """Raise ProfileError unless y, z [m] are enough points, finite, in order, of plausible size."""
     if len(y) != len(z):
         raise ProfileError(f"{name}: {len(y)} values of y but {len(z)} of z; give pairs")
     if len(y) < _MINIMUM_POINTS:

@@ -1,4 +1,4 @@
-"""Profiles built from their formulas: S1002, UIC60, a reconstructed AAR 1:20 wheel, cone, knife edge.
+"""Profiles from formulas: S1002, UIC60, a reconstructed AAR 1:20 wheel, cone, knife edge.
 
 Sources:
 - S1002: EN 13715 (flange of 28 mm), sections A to H, radius r0 + F(s), s to the field side [mm];
@@ -13,6 +13,7 @@ into a curvature error of about 10 e/h^2. At h = 0.1 mm both stay below 0.01 1/m
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -107,7 +108,7 @@ def s1002() -> Profile:
     )
     samples = []
     edges = np.array(_S1002_JUNCTIONS) * 1e-3
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in itertools.pairwise(edges):
         ends = np.interp([low, high], y_fine, length)
         count = max(2, round((ends[1] - ends[0]) / _SAMPLING))
         part = np.interp(np.linspace(ends[0], ends[1], count + 1), length, y_fine)
@@ -160,12 +161,13 @@ def aar_1_20(
     thickness_depth: float = 3.0 / 8.0 * INCH,
     back_to_back: float = 53.375 * INCH,
     tape_half_distance: float = 0.75,
+    minimum_face: float = 0.1 * INCH,
     field_end: float = 0.06,
 ) -> Profile:
     """A reconstruction of the AAR wheel with 1:20 tread; lengths in metres, the angle in radians.
 
     There is no exact drawing behind it. The chain is tread line, throat fillet, straight flange
-    face, one arc that is the flange tip, all tangent. The choices and their reasons:
+    face, arc, crest, arc of the flange back, all tangent. The choices and their reasons:
     taper 1:20 and throat_radius 11/16 in: as the wheel is named and cut in North America;
     flange_angle 75 degrees: the AAR-1B value; older wheels had less, down to 68 degrees;
     flange_height 1 in: tip below the tape line, freight and passenger wheels alike;
@@ -175,8 +177,10 @@ def aar_1_20(
     10 mm of flange play on 1435 mm that narrow-flange wheelsets have;
     tape_half_distance 0.75 m: half the distance of the tape circles of the wheelset this profile
     is made for; with back_to_back it places y = 0 above the flange back;
-    the tip's radius is not chosen: it is the arc that touches the flange's back plane, its
-    greatest depth and its face, 13.5 mm with these values;
+    minimum_face 0.1 in: least length over which APTA SS-M-015-06 wants the flange angle kept;
+    the tip's radius is not chosen: it is the greatest that leaves this face and touches the
+    flange's back plane, its greatest depth and its face, 11.5 mm with these values. Where the
+    tip is not one arc, a level crest joins two of the same radius (3.7 mm with these values);
     field_end: the tread is straight up to there; the chamfer is left out.
 
     Raises ProfileError where the pieces do not fit together.
@@ -216,28 +220,34 @@ def aar_1_20(
     centre_z = throat_start * taper - throat_radius * cos_t
     face_y, face_z = centre_y - throat_radius * sin_f, centre_z + throat_radius * cos_f
 
-    # Circle of radius R at (back + R, R - flange_height), tangent to the face's line: the distance
-    # of the centre from the line, (face_z - z) cos_f - (face_y - y) sin_f, is -R.
-    tip_radius = ((face_y - back) * sin_f - (face_z + flange_height) * cos_f) / (
-        1.0 + sin_f - cos_f
-    )
-    tip_y, tip_z = back + tip_radius, tip_radius - flange_height
-    tip_end_y, tip_end_z = tip_y + tip_radius * sin_f, tip_z - tip_radius * cos_f
-    if not (tip_radius > 0.0 and tip_end_z < face_z):
+    # A circle that touches the back plane and the depth has its centre (back + R, R - height); it
+    # touches the face's line too where (face_z - z) cos_f - (face_y - y) sin_f = -R.
+    inscribed = ((face_y - back) * sin_f - (face_z + flange_height) * cos_f) / (1.0 + sin_f - cos_f)
+    below_face = (face_z - minimum_face * sin_f + flange_height) / (1.0 - cos_f)
+    tip_radius = min(inscribed, below_face)
+    tip_z = tip_radius - flange_height
+    tip_end_z = tip_z - tip_radius * cos_f
+    tip_end_y = face_y - (face_z - tip_end_z) * cos_f / sin_f
+    front_y, back_y = tip_end_y - tip_radius * sin_f, back + tip_radius
+    if not (tip_radius > 1e-3 and tip_end_z < face_z and front_y > back_y - 1e-12):
         raise ProfileError(
             f"the flange tip (radius {1e3 * tip_radius:.2f} mm) and the throat overlap; "
-            "make the flange higher or thicker, or the throat radius smaller"
+            "make the flange higher or thicker, or the throat radius or minimum_face smaller"
         )
 
     # The arc stops 5 degrees short of the vertical flange back, where z(y) would end.
     back_angle = math.radians(-85.0)
-    tip = _angles(back_angle, flange_angle, tip_radius)
+    back_arc = _angles(back_angle, 0.0, tip_radius)
+    crest = _steps(front_y - back_y)[1:-1] if front_y > back_y + 1e-6 else np.empty(0)
+    front_arc = _angles(0.0, flange_angle, tip_radius)[(0 if len(crest) else 1) :]
     throat = _angles(flange_angle, tread_angle, throat_radius)
     face = _steps(math.hypot(face_y - tip_end_y, face_z - tip_end_z))[1:-1]
     tread = throat_start + (field_end - throat_start) * _steps(field_end - throat_start)[1:]
     y = np.concatenate(
         (
-            tip_y + tip_radius * np.sin(tip),
+            back_y + tip_radius * np.sin(back_arc),
+            back_y + crest * (front_y - back_y),
+            front_y + tip_radius * np.sin(front_arc),
             tip_end_y + face * (face_y - tip_end_y),
             centre_y - throat_radius * np.sin(throat),
             tread,
@@ -245,7 +255,9 @@ def aar_1_20(
     )
     z = np.concatenate(
         (
-            tip_z - tip_radius * np.cos(tip),
+            tip_z - tip_radius * np.cos(back_arc),
+            np.full(len(crest), -flange_height),
+            tip_z - tip_radius * np.cos(front_arc),
             tip_end_z + face * (face_z - tip_end_z),
             centre_z + throat_radius * np.cos(throat),
             tread * taper,
