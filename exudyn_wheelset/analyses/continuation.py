@@ -1,0 +1,429 @@
+"""Continuation: a branch of periodic orbits followed through folds, from stable to unstable.
+
+The orbit, its period T and the forward speed V are one unknown X. From a known X0 with the unit
+tangent t the next point is predicted at X0 + ds t and corrected on the plane across the tangent,
+
+    collocation equations (X) = 0,   <X - X0, t> = ds                                  (1)
+
+(Keller's pseudo-arclength), so that a fold, where V turns back, is a point like any other. On a
+branch born at a Hopf point the first predictor is the eigenvector: x0 + e Re(v exp(2 pi i s)),
+T = 2 pi/omega, t = (Re(v exp(2 pi i s)), 0, 0).
+
+The Jacobians at a converged point give its tangent and its Floquet multipliers, and are used
+again for the corrector of the next point. Folds are roots of the tangent's speed component.
+
+Wheels on rails are not smooth (flange, saturated creep, lift-off): there the tangent turns on a
+short length, so a step is also refused when the tangent turns by more than `turn`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from exudyn_wheelset.analyses.collocation import (
+    DEGREE,
+    INTERVALS,
+    Collocation,
+    Condensed,
+    Direction,
+    Functional,
+    Orbit,
+    OrbitError,
+    Solution,
+    balanced_mesh,
+    solve_orbit,
+    speed_row,
+)
+from exudyn_wheelset.analyses.linear import CriticalPoint
+from exudyn_wheelset.analyses.system import Array
+from exudyn_wheelset.errors import AnalysisError
+
+
+@dataclass(frozen=True)
+class ContinuationSettings:
+    """How a branch is followed.
+
+    intervals, degree   mesh intervals of an orbit and polynomial degree on each
+    tolerance           of Newton's correction, relative to the size of the orbit
+    first_amplitude     of the first orbit off a Hopf point, in units of the state's scale
+    growth              largest change of the orbit in one step, as a fraction of its size
+    speed_steps         the speed range is crossed in at least this many steps
+    smallest_step       of the arclength, as a fraction of the largest allowed one
+    turn                largest turn of the tangent in one step [rad]
+    adapt_every         points between two adaptations of the mesh
+    maximum_points      a branch ends after so many points
+    amplitude_limits    state name to half peak to peak [m or rad] at which a branch ends
+    fold_tolerance      relative error of the speed of a fold
+    stability_margin    a multiplier of size 1 + this is not yet called unstable
+    """
+
+    intervals: int = INTERVALS
+    degree: int = DEGREE
+    tolerance: float = 1e-8
+    first_amplitude: float = 0.05
+    growth: float = 0.3
+    speed_steps: int = 25
+    smallest_step: float = 1e-4
+    turn: float = 0.5
+    adapt_every: int = 4
+    maximum_points: int = 200
+    amplitude_limits: tuple[tuple[str, float], ...] = ()
+    fold_tolerance: float = 1e-7
+    stability_margin: float = 1e-5
+
+    def __post_init__(self) -> None:
+        if self.intervals < 4 or not 2 <= self.degree <= 7:
+            raise AnalysisError(
+                f"intervals = {self.intervals}, degree = {self.degree}: an orbit needs at least "
+                "4 intervals and a degree from 2 to 7 (30 and 4 serve most vehicles)"
+            )
+        if self.maximum_points < 1 or self.speed_steps < 1 or self.adapt_every < 1:
+            raise AnalysisError(
+                f"maximum_points = {self.maximum_points}, speed_steps = {self.speed_steps} and "
+                f"adapt_every = {self.adapt_every} must be at least 1"
+            )
+        for name in ("tolerance", "first_amplitude", "growth", "smallest_step", "turn"):
+            if not getattr(self, name) > 0.0:
+                raise AnalysisError(f"{name} = {getattr(self, name)!r} must be positive")
+
+    def record(self) -> dict[str, object]:
+        """The settings as plain values for a file."""
+        return asdict(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """A converged orbit of a branch.
+
+    multipliers     (n - 1,) Floquet multipliers without the trivial one, by falling size
+    trivial_error   distance of the trivial multiplier from 1: an accuracy check
+    slope           speed component of the unit tangent; its sign changes at a fold
+    is_fold         whether the speed has its extremum along the branch here
+    """
+
+    orbit: Orbit
+    multipliers: Array
+    trivial_error: float
+    slope: float
+    is_fold: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class _Base:
+    """A point to step from: the orbit, the equations there and the unit tangent."""
+
+    orbit: Orbit
+    condensed: Condensed
+    tangent: Direction
+
+
+def hopf_start(
+    equations: Collocation, hopf: CriticalPoint, settings: ContinuationSettings
+) -> tuple[Orbit, Condensed, Direction]:
+    """First small orbit off a Hopf point, the equations near it and the tangent of growth.
+
+    The amplitude is halved until Newton converges near the point. Raises OrbitError.
+    """
+    system = equations.system
+    frequency = abs(hopf.eigenvalue.imag)
+    mode = np.asarray(hopf.mode)
+    if hopf.eigenvalue.imag < 0.0:
+        mode = mode.conj()
+    displacements = list(system.displacement_indices)
+    mode = mode / np.abs((mode / equations.scales)[displacements]).max()
+    count = settings.intervals * settings.degree
+    cycle = np.real(mode[None, :] * np.exp(2j * np.pi * np.arange(count + 1) / count)[:, None])
+    mesh = np.linspace(0.0, 1.0, settings.intervals + 1)
+    amplitude = settings.first_amplitude
+    failure = "Newton converged to another motion"
+    for _ in range(10):
+        states = hopf.state + amplitude * cycle
+        states[-1] = states[0]
+        guess = Orbit(mesh, states, 2.0 * np.pi / frequency, float(hopf.speed))
+        resting = Orbit(mesh, np.tile(hopf.state, (count + 1, 1)), guess.period, guess.speed)
+        tangent = _unit(equations, mesh, equations.difference(guess, resting))
+        row = equations.inner(mesh, tangent)
+        try:
+            found = solve_orbit(equations, guess, row, tolerance=settings.tolerance)
+        except OrbitError as error:
+            failure = str(error)
+        else:
+            orbit = found.orbit
+            near = abs(orbit.speed - hopf.speed) < 0.03 * max(1.0, abs(hopf.speed))
+            kept = 0.3 < equations.size(orbit) / equations.size(guess) < 3.0
+            if near and kept and 0.8 < orbit.period / guess.period < 1.25:
+                return orbit, found.condensed, tangent
+        amplitude *= 0.5
+    raise OrbitError(
+        f"no small orbit was found next to the Hopf point at {float(hopf.speed):.4f} m/s: {failure}"
+    )
+
+
+def follow(
+    equations: Collocation,
+    orbit: Orbit,
+    heading: Direction | float,
+    speeds: tuple[float, float],
+    settings: ContinuationSettings,
+    report: Callable[[Point], None] | None = None,
+) -> tuple[list[Point], str]:
+    """Points of the branch through `orbit`, starting with it, and the reason why it ends.
+
+    `heading` is a direction of growth, or +1.0 or -1.0 to set out to higher or lower speed. The
+    branch ends where it leaves `speeds` (low, high) [m/s], at an amplitude limit, where the model
+    loses contact, where Newton fails at the smallest step, back at its start, at an equilibrium
+    (Hopf point), after the largest number of points, or on a keyboard interrupt. Nothing that
+    was found is lost. Each point goes to `report`.
+    """
+    follower = _Follower(equations, speeds, settings, report)
+    try:
+        follower.begin(orbit, heading)
+        reason = ""
+        while not reason:
+            reason = follower.advance()
+    except OrbitError as error:
+        if not follower.points:
+            raise
+        reason = _failure(error)
+    except KeyboardInterrupt:
+        reason = "interrupted by the user"
+    return follower.points, reason
+
+
+class _Follower:
+    def __init__(
+        self,
+        equations: Collocation,
+        speeds: tuple[float, float],
+        settings: ContinuationSettings,
+        report: Callable[[Point], None] | None,
+    ) -> None:
+        self.equations = equations
+        self.low, self.high = speeds
+        self.settings = settings
+        self.report = report
+        self.points: list[Point] = []
+        names = equations.system.state_names
+        self.limits = [(names.index(name), limit) for name, limit in settings.amplitude_limits]
+
+    def begin(self, orbit: Orbit, heading: Direction | float) -> None:
+        condensed = self.equations.condense(orbit)
+        size = len(self.equations.scales)
+        if isinstance(heading, Direction):
+            row = self.equations.inner(orbit.mesh, heading)
+        else:
+            row = speed_row(orbit, size)
+            row = Functional(row.orbit, 0.0, float(heading))
+        self.base = self._base(orbit, condensed, row)
+        self.first, self.length = self.base, 0.0
+        self._keep(self._point(self.base))
+        self.step = 0.3 * self._largest_step()
+        self.size = self.equations.size(orbit)
+
+    def advance(self) -> str:
+        """One step along the branch; a reason if the branch ends with it."""
+        settings = self.settings
+        if len(self.points) >= settings.maximum_points:
+            return f"the maximum of {settings.maximum_points} points was reached"
+        largest = self._largest_step()
+        self.step = min(self.step, largest)
+        while True:
+            try:
+                reason = self._try_step()
+            except OrbitError as error:
+                if self.step < settings.smallest_step * largest:
+                    return _failure(error)
+                self.step *= 0.4
+            else:
+                return reason
+
+    def _try_step(self) -> str:
+        equations, settings, base = self.equations, self.settings, self.base
+        length, tangent = self.step, base.tangent
+        row = equations.inner(base.orbit.mesh, tangent)
+        guess = equations.moved(base.orbit, tangent, length)
+        end = self._end_passed(guess.speed)
+        if end is None:
+            found = self._solve(guess, row, base)
+            end = self._end_passed(found.orbit.speed)
+        if end is not None:
+            length *= (end - base.orbit.speed) / (guess.speed - base.orbit.speed)
+            if not length > 0.0:
+                return self._left(end)
+            guess = equations.moved(base.orbit, tangent, length)
+            found = self._solve(guess, speed_row(base.orbit, len(equations.scales)), base)
+        orbit = found.orbit
+        size = equations.size(orbit)
+        if not 0.4 < size / equations.size(guess) < 2.5:
+            raise OrbitError("Newton left the branch: the orbit changed its size")
+        if not 0.67 < orbit.period / guess.period < 1.5:
+            raise OrbitError("Newton left the branch: the orbit changed its period")
+        condensed = equations.condense(orbit)
+        new = self._base(orbit, condensed, equations.inner(orbit.mesh, tangent))
+        cosine = equations.inner(orbit.mesh, tangent)(*_parts(new.tangent))
+        if cosine < np.cos(settings.turn):
+            # At a corner of the branch (a contact that sets in) every step turns by as much: the
+            # smallest ones are let through.
+            if self.step > 30.0 * settings.smallest_step * self._largest_step():
+                raise OrbitError("the branch turns more sharply than a step may")
+        if new.tangent.speed * tangent.speed < 0.0:
+            self._locate_fold(base, new, length)
+        self.base = new
+        self.length += length
+        self._keep(self._point(new))
+        if end is not None:
+            return self._left(end)
+        reason = self._over_limits(orbit, size)
+        if reason:
+            return reason
+        effort = found.iterations + 3 * found.refreshed
+        self.step *= 1.5 if effort <= 8 else 1.0 if effort <= 13 else 0.7
+        if len(self.points) % settings.adapt_every == 0:
+            self._adapt()
+        return ""
+
+    def _largest_step(self) -> float:
+        """Arclength in which the orbit changes by `growth` or the speed by a step of the range."""
+        equations, base = self.equations, self.base
+        part = Direction(base.tangent.orbit, base.tangent.period, 0.0)
+        change = equations.norm(base.orbit.mesh, part)
+        by_size = self.settings.growth * equations.size(base.orbit) / max(change, 1e-12)
+        step = (self.high - self.low) / self.settings.speed_steps / equations.speed_unit
+        by_speed = step / max(abs(base.tangent.speed), 1e-12)
+        return min(by_size, by_speed)
+
+    def _base(self, orbit: Orbit, condensed: Condensed, row: Functional) -> _Base:
+        equations = self.equations
+        shape = (len(orbit.mesh) - 1, orbit.degree, len(equations.scales))
+        tangent = condensed.solve(np.zeros(shape), [equations.phase(orbit), row], [0.0, 1.0])
+        return _Base(orbit, condensed, _unit(equations, orbit.mesh, tangent))
+
+    def _point(self, base: _Base, is_fold: bool = False) -> Point:
+        multipliers, error = self.equations.multipliers(base.orbit, base.condensed)
+        return Point(base.orbit, multipliers, error, base.tangent.speed, is_fold)
+
+    def _keep(self, point: Point) -> None:
+        self.points.append(point)
+        if self.report is not None:
+            self.report(point)
+
+    def _locate_fold(self, left: _Base, right: _Base, length: float) -> None:
+        """Insert the point between two bases where the tangent's speed component vanishes.
+
+        False position with halved weights (Illinois): the speed at the root is known to the
+        square of the root's error where f is smooth, to the width of the bracket at a corner.
+        """
+        equations, settings = self.equations, self.settings
+        row = equations.inner(left.orbit.mesh, left.tangent)
+        lower, upper = 0.0, length
+        below, above = left.tangent.speed, right.tangent.speed
+        start, best = left, left if abs(below) < abs(above) else right
+        weights = [below, above]
+        goal = settings.fold_tolerance * max(1.0, abs(left.orbit.speed)) / equations.speed_unit
+        last_side = 0
+        for _ in range(30):
+            where = (lower * weights[1] - upper * weights[0]) / (weights[1] - weights[0])
+            guess = equations.moved(left.orbit, left.tangent, where)
+            if start is not left:
+                way = equations.difference(start.orbit, left.orbit)
+                shift = (where - row(*_parts(way))) / row(*_parts(start.tangent))
+                guess = equations.moved(start.orbit, start.tangent, shift)
+            try:
+                found = self._solve(guess, row, start)
+                condensed = equations.condense(found.orbit)
+                start = self._base(found.orbit, condensed, row)
+            except OrbitError:
+                break
+            best, slope = start, start.tangent.speed
+            sharp = abs(slope) < 1e-6 * (abs(below) + abs(above)) or upper - lower < 1e-4 * length
+            if sharp and abs(slope) * (upper - lower) < goal:
+                break
+            if slope * below > 0.0:
+                lower, weights[0] = where, slope
+                weights[1] *= 0.5 if last_side == 1 else 1.0
+                last_side = 1
+            else:
+                upper, weights[1] = where, slope
+                weights[0] *= 0.5 if last_side == -1 else 1.0
+                last_side = -1
+            if upper - lower < 1e-9 * length:
+                break
+        self._keep(self._point(best, is_fold=True))
+
+    def _adapt(self) -> None:
+        """Move the base to a mesh that spreads the error, if the Jacobians there exist."""
+        equations, base = self.equations, self.base
+        mesh = balanced_mesh(base.orbit, equations.scales)
+        orbit = base.orbit.on_mesh(mesh)
+        flat = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
+        row = equations.inner(mesh, equations.difference(flat, orbit))
+        try:
+            self.base = self._base(orbit, equations.condense(orbit), row)
+        except OrbitError:
+            return
+
+    def _over_limits(self, orbit: Orbit, size: float) -> str:
+        settings = self.settings
+        if self.limits:
+            amplitude = orbit.half_peak_to_peak()
+            for index, limit in self.limits:
+                if amplitude[index] > limit:
+                    name = self.equations.system.state_names[index]
+                    return f"the amplitude limit was passed: {name} {amplitude[index]:.4g}"
+        if size < 0.3 * self.size and size < 0.7 * settings.first_amplitude:
+            return f"the orbit shrank to an equilibrium (Hopf point) near {orbit.speed:.4f} m/s"
+        if self._is_back(orbit):
+            return "the branch closed on itself"
+        return ""
+
+    def _is_back(self, orbit: Orbit) -> bool:
+        first = self.first.orbit
+        if len(self.points) < 8 or abs(orbit.speed - first.speed) > 0.5 * self.equations.speed_unit:
+            return False
+        if abs(orbit.period - first.period) > 0.01 * first.period:
+            return False
+        here = orbit.half_peak_to_peak() / self.equations.scales
+        there = first.half_peak_to_peak() / self.equations.scales
+        passed = (orbit.speed - first.speed) * self.first.tangent.speed > 0.0
+        alike = np.linalg.norm(here - there) < 0.02 * np.linalg.norm(there)
+        same_way = self.base.tangent.speed * self.first.tangent.speed > 0.0
+        return bool(alike and passed and same_way)
+
+    def _solve(self, guess: Orbit, row: Functional, base: _Base) -> Solution:
+        return solve_orbit(
+            self.equations,
+            guess,
+            row,
+            condensed=base.condensed,
+            reference=base.orbit,
+            tolerance=self.settings.tolerance,
+        )
+
+    def _end_passed(self, speed: float) -> float | None:
+        """The end of the speed range that lies between the base and `speed`, if there is one."""
+        if speed > self.high and speed > self.base.orbit.speed:
+            return self.high
+        if speed < self.low and speed < self.base.orbit.speed:
+            return self.low
+        return None
+
+    def _left(self, end: float) -> str:
+        side = "lower" if end == self.low else "upper"
+        return f"the speed range was left at its {side} end, {end:g} m/s"
+
+
+def _parts(direction: Direction) -> tuple[Array, float, float]:
+    return direction.orbit, direction.period, direction.speed
+
+
+def _unit(equations: Collocation, mesh: Array, direction: Direction) -> Direction:
+    return direction * (1.0 / equations.norm(mesh, direction))
+
+
+def _failure(error: OrbitError) -> str:
+    if error.contact_lost:
+        return f"lost contact or derailment: {error}"
+    return f"no convergence at the smallest step: {error}"
