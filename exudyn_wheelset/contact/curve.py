@@ -1,0 +1,39 @@
+"""Planar curves over arc length for the kernels: piecewise cubics on a uniform grid.
+
+A curve is a block of a flat float64 array: n segments of eight coefficients, y and z [m] as
+a0 + a1 u + a2 u^2 + a3 u^3 with u [m] from the segment's start. Beyond its ends a curve goes on
+straight, so that no pose gives anything but finite numbers.
+"""
+
+from numba import njit
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def curve_point(data, offset, spacing, segments, arc):
+    """Return (y, y', y'', z, z', z'') [m, -, 1/m] of the curve at arc length `arc` [m]."""
+    last = segments - 1
+    index = int(arc / spacing)
+    if index < 0:
+        index = 0
+    elif index > last:
+        index = last
+    u = arc - index * spacing
+    beyond = 0.0
+    if u < 0.0:
+        beyond = u
+        u = 0.0
+    elif u > spacing:
+        beyond = u - spacing
+        u = spacing
+    base = offset + 8 * index
+    b2 = data[base + 2]
+    b3 = data[base + 3]
+    c2 = data[base + 6]
+    c3 = data[base + 7]
+    y1 = data[base + 1] + u * (2.0 * b2 + 3.0 * u * b3)
+    z1 = data[base + 5] + u * (2.0 * c2 + 3.0 * u * c3)
+    y = data[base] + u * (data[base + 1] + u * (b2 + u * b3)) + beyond * y1
+    z = data[base + 4] + u * (data[base + 5] + u * (c2 + u * c3)) + beyond * z1
+    if beyond != 0.0:
+        return y, y1, 0.0, z, z1, 0.0
+    return y, y1, 2.0 * b2 + 6.0 * u * b3, z, z1, 2.0 * c2 + 6.0 * u * c3

@@ -1,0 +1,218 @@
+"""What a wheelset and a track are: frozen descriptions, validated on creation.
+
+Frames (docs/conventions.md): track frame x forward, y left, z up, origin on the track centre line
+in the plane of the rail tops. A profile is stored for one side, y > 0 towards the field side, and
+mirrored for the right one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+
+import numpy as np
+from scipy.optimize import brentq
+
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.profiles import Profile, load_profile
+
+ProfileSource = Profile | str | PathLike
+
+
+def _require_positive(what: str, value: float, unit: str, largest: float) -> None:
+    if not np.isfinite(value) or value <= 0.0:
+        raise WheelsetError(f"{what} = {value!r} {unit}: give a positive number in {unit}")
+    if value > largest:
+        raise WheelsetError(
+            f"{what} = {value!r} {unit} is out of proportion (largest accepted {largest:g} {unit}): "
+            f"is it given in {unit}?"
+        )
+
+
+def _profile_of_kind(source: ProfileSource, kind: str) -> Profile:
+    profile = load_profile(source)
+    if profile.kind != kind:
+        raise WheelsetError(
+            f"profile {profile.name!r} is a {profile.kind}, but a {kind} profile is needed here: "
+            f"give a {kind} profile"
+        )
+    return profile
+
+
+@dataclass(frozen=True)
+class Wheelset:
+    """A rigid axle with two profiled wheels.
+
+    mass [kg]; inertia (Ix, Iy, Iz) [kg m^2] about the centre, y the axle; radius [m] of the left
+    wheel at the tape circle; wheel: profile, name or path; tape_half_distance [m] from the axle's
+    centre to a tape circle. right_wheel and right_radius default to the left ones.
+    Raises WheelsetError for values that no wheelset has.
+    """
+
+    mass: float
+    inertia: tuple[float, float, float]
+    radius: float
+    wheel: Profile
+    tape_half_distance: float = 0.75
+    right_wheel: Profile | None = None
+    right_radius: float | None = None
+
+    def __init__(
+        self,
+        mass: float,
+        inertia: tuple[float, float, float],
+        radius: float,
+        wheel: ProfileSource,
+        tape_half_distance: float = 0.75,
+        right_wheel: ProfileSource | None = None,
+        right_radius: float | None = None,
+    ) -> None:
+        _require_positive("mass", mass, "kg", 1e5)
+        if np.shape(inertia) != (3,):
+            raise WheelsetError(
+                f"inertia = {inertia!r}: give the three numbers (Ix, Iy, Iz) [kg m^2]"
+            )
+        for axis, value in zip("xyz", inertia, strict=True):
+            _require_positive(f"inertia I{axis}", value, "kg m^2", 1e6)
+        _require_positive("radius", radius, "m", 2.0)
+        _require_positive("tape_half_distance", tape_half_distance, "m", 2.0)
+        if right_radius is not None:
+            _require_positive("right_radius", right_radius, "m", 2.0)
+        put = object.__setattr__
+        put(self, "mass", float(mass))
+        put(self, "inertia", tuple(float(value) for value in inertia))
+        put(self, "radius", float(radius))
+        put(self, "wheel", _profile_of_kind(wheel, "wheel"))
+        put(self, "tape_half_distance", float(tape_half_distance))
+        right = None if right_wheel is None else _profile_of_kind(right_wheel, "wheel")
+        put(self, "right_wheel", right)
+        put(self, "right_radius", None if right_radius is None else float(right_radius))
+
+
+@dataclass(frozen=True)
+class RailPlacement:
+    """A rail's profile curve in the track frame, mirrored to the left side.
+
+    coefficients: (n, 8) of y [m] and z [m] as cubics of the arc length [m] in segments of length
+    `spacing`; datum_y [m]: lateral position of the highest point, where z = 0.
+    """
+
+    coefficients: np.ndarray
+    spacing: float
+    datum_y: float
+
+
+@dataclass(frozen=True)
+class Track:
+    """Two profiled rails at a gauge.
+
+    rail: profile, name or path; gauge [m] measured gauge_depth [m] below the highest point;
+    inclination [-] turns the rails about the head centre towards the track centre (1/40, 1/20, or
+    0 for a profile that is already inclined). right_rail defaults to the left one.
+    Instead of the gauge, datum_half_distance [m] may place the rails' highest points directly.
+    """
+
+    rail: Profile
+    gauge: float = 1.435
+    gauge_depth: float = 0.014
+    inclination: float = 1.0 / 40.0
+    right_rail: Profile | None = None
+    datum_half_distance: float | None = None
+    origin_half_distance: float | None = field(default=None)
+
+    def __init__(
+        self,
+        rail: ProfileSource,
+        gauge: float = 1.435,
+        gauge_depth: float = 0.014,
+        inclination: float = 1.0 / 40.0,
+        right_rail: ProfileSource | None = None,
+        datum_half_distance: float | None = None,
+        origin_half_distance: float | None = None,
+    ) -> None:
+        _require_positive("gauge", gauge, "m", 3.0)
+        _require_positive("gauge_depth", gauge_depth, "m", 0.05)
+        if not np.isfinite(inclination) or abs(inclination) > 0.2:
+            raise WheelsetError(
+                f"inclination = {inclination!r}: give a slope within +-0.2, such as 1/40"
+            )
+        if datum_half_distance is not None and origin_half_distance is not None:
+            raise WheelsetError("give datum_half_distance or origin_half_distance, not both")
+        for what, value in (
+            ("datum_half_distance", datum_half_distance),
+            ("origin_half_distance", origin_half_distance),
+        ):
+            if value is not None:
+                _require_positive(what, value, "m", 2.0)
+        put = object.__setattr__
+        put(self, "rail", _profile_of_kind(rail, "rail"))
+        put(self, "gauge", float(gauge))
+        put(self, "gauge_depth", float(gauge_depth))
+        put(self, "inclination", float(inclination))
+        right = None if right_rail is None else _profile_of_kind(right_rail, "rail")
+        put(self, "right_rail", right)
+        put(self, "datum_half_distance", datum_half_distance)
+        put(self, "origin_half_distance", origin_half_distance)
+
+    @cached_property
+    def left_placement(self) -> RailPlacement:
+        """Left rail in the track frame."""
+        return self._place(self.rail)
+
+    @cached_property
+    def right_placement(self) -> RailPlacement:
+        """Right rail, mirrored to the left side."""
+        return self.left_placement if self.right_rail is None else self._place(self.right_rail)
+
+    def _place(self, rail: Profile) -> RailPlacement:
+        table = rail.arc_table()
+        angle = np.arctan(self.inclination)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        along_y, along_z = table.coefficients[:, :4], table.coefficients[:, 4:]
+        turned = np.hstack([cosine * along_y - sine * along_z, sine * along_y + cosine * along_z])
+        datum, height = _highest_point(turned, table.ds)
+        if self.datum_half_distance is not None:
+            shift = self.datum_half_distance - datum
+        elif self.origin_half_distance is not None:
+            shift = self.origin_half_distance
+        else:
+            level = height - self.gauge_depth
+            shift = 0.5 * self.gauge - _gauge_point(turned, table.ds, level, rail.name)
+        turned[:, 0] += shift
+        turned[:, 4] -= height
+        return RailPlacement(turned, table.ds, datum + shift)
+
+
+def _highest_point(coefficients: np.ndarray, spacing: float) -> tuple[float, float]:
+    """Lateral position and height of the curve's highest point."""
+    best = (float(coefficients[0, 0]), float(coefficients[0, 4]))
+    top = int(np.argmax(coefficients[:, 4]))
+    for segment in coefficients[max(top - 1, 0) : top + 1]:
+        height = np.polynomial.Polynomial(segment[4:])
+        lateral = np.polynomial.Polynomial(segment[:4])
+        places = [0.0, spacing]
+        places += [
+            float(root.real)
+            for root in height.deriv().roots()
+            if abs(root.imag) < 1e-12 and 0.0 < root.real < spacing
+        ]
+        for place in places:
+            if height(place) > best[1]:
+                best = (float(lateral(place)), float(height(place)))
+    return best
+
+
+def _gauge_point(coefficients: np.ndarray, spacing: float, level: float, name: str) -> float:
+    """Lateral position of the gauge-side point at height `level`, nearest to the top."""
+    top = int(np.argmax(coefficients[:, 4]))
+    below = np.flatnonzero(coefficients[:top, 4] <= level)
+    if below.size == 0:
+        raise WheelsetError(
+            f"rail {name!r} does not reach the depth below its top at which the gauge is measured, "
+            "on the gauge side: give a smaller gauge_depth, or datum_half_distance"
+        )
+    segment = coefficients[below[-1]]
+    height = np.polynomial.Polynomial(segment[4:]) - level
+    place = brentq(height, 0.0, spacing, xtol=1e-15)
+    return float(np.polynomial.Polynomial(segment[:4])(place))

@@ -1,0 +1,295 @@
+"""Forces of the rails on a wheelset: patches, normal force, creepages and creep force.
+
+For each patch, in the triad (x along the track, lateral tangent, normal n from rail into wheel):
+- normal force N = N_Hertz(delta) (1 + damping delta') >= 0, a dissipative term that vanishes with
+  the penetration (Hunt and Crossley 1975), delta' = -n.v;
+- creepages from the exact velocity of the wheel's particle at the contact point P,
+  v = v_C + omega x (P - C) minus the rail's: creep_x = v_x/V, creep_y = v.t/V, t = n x e_x, and
+  spin = omega.n/V (Petersen and Hoffmann 2003; no small angles);
+- creep force by the chosen law; wrench about the wheelset's centre in the track frame.
+V is the forward speed over the rails.
+
+Two neighbouring lobes with penetrations delta_1, delta_2 become one patch when the valley between
+them disappears. With the separation s (search.py), the patch of lobe j carries
+    N_j = s N(delta_j, B_j) + (1 - s) share_j N(max delta, B_merged),
+where B_merged belongs to the zone over both lobes and share_j to lobe j's part of it; ellipse and
+position are blended alike, the merged ellipse's lateral axis split by share_j so that the shares'
+creep stiffness adds up to the whole. So a lobe enters and leaves without a step in force.
+
+The right side is computed as the left side of the mirrored wheelset and mirrored back, so mirror
+symmetry holds to rounding.
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from exudyn_wheelset.contact.locus import wheel_point
+from exudyn_wheelset.contact.search import (
+    LOBE_ARC,
+    LOBE_CURVATURE,
+    LOBE_FOOT,
+    LOBE_LEFT,
+    LOBE_PENETRATION,
+    LOBE_RIGHT,
+    LOBE_SEPARATION,
+    LOBE_WIDTH,
+    MOST_LOBES,
+    VIRTUAL,
+    find_lobes,
+    zone_moments,
+)
+from exudyn_wheelset.contact.tables import DATUM, HEADER, RADIUS, RAIL, RAIL_SEGMENTS, RAIL_SPACING
+from exudyn_wheelset.contact.curve import curve_point
+from exudyn_wheelset.creep import creep_kernel
+from exudyn_wheelset.normal.hertz import hertz_from_approach
+
+FRICTION, SHEAR_MODULUS, POISSON, DAMPING, LAW, NORMAL, RAIL_SPEED = 0, 1, 2, 3, 4, 5, 6
+LAW_PARAMETERS = 8
+PARAMETER_COUNT = 16
+
+(
+    PATCH_WHEEL_Y,
+    PATCH_RAIL_Y,
+    PATCH_ANGLE,
+    PATCH_RADIUS,
+    PATCH_NORMAL_FORCE,
+    PATCH_CREEP_X,
+    PATCH_CREEP_Y,
+    PATCH_SPIN,
+    PATCH_FX,
+    PATCH_FY,
+    PATCH_MZ,
+    PATCH_A,
+    PATCH_B,
+    PATCH_PENETRATION,
+    PATCH_X,
+    PATCH_Y,
+    PATCH_Z,
+    PATCH_NORMAL_Y,
+    PATCH_NORMAL_Z,
+    PATCH_ENERGY,
+) = range(20)
+PATCH_WIDTH = 20
+
+# Result array: wrench (6), numbers of patches left and right, then the patches of either side.
+COUNT_LEFT, COUNT_RIGHT, PATCHES = 6, 7, 8
+RESULT_SIZE = PATCHES + 2 * MOST_LOBES * PATCH_WIDTH
+HERTZ, HERTZ_LOCAL = 0, 1
+_SCRATCH = MOST_LOBES * LOBE_WIDTH
+# Below this forward speed creepage is formed with it, to stay finite at rest.
+LEAST_SPEED = 0.1
+
+
+def new_result() -> np.ndarray:
+    """Array that the kernels write into; one for each wheelset."""
+    return np.zeros(RESULT_SIZE + _SCRATCH)
+
+
+@njit(cache=True, error_model="numpy")
+def _ellipse(zone, lobe_depth, radius, nz, parameters):
+    """Hertz ellipse of a zone's integral: (normal_force, a, b)."""
+    extent = VIRTUAL * lobe_depth
+    lateral = (16.0 / 9.0) * extent * extent * extent / (zone * zone)
+    along = 0.5 * nz / radius
+    return hertz_from_approach(
+        along, lateral, lobe_depth, parameters[SHEAR_MODULUS], parameters[POISSON]
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes):
+    """Normal contact of one side: fills patch rows with geometry and elastic force; their count."""
+    count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes)
+    kept = 0
+    for k in range(count):
+        depth = lobes[k, LOBE_PENETRATION]
+        arc = lobes[k, LOBE_ARC]
+        foot = lobes[k, LOBE_FOOT]
+        bend = lobes[k, LOBE_CURVATURE]
+        level = (1.0 - VIRTUAL) * depth
+        zone, m_arc, m_foot, m_ny, m_nz = zone_moments(
+            table, side, arc, foot, depth, bend, lobes[k, LOBE_LEFT], lobes[k, LOBE_RIGHT],
+            level, cy, cz, lx, ly, lz,
+        )  # fmt: skip
+        if zone <= 0.0:
+            continue
+        place = m_arc / zone
+        at = m_foot / zone
+        ny = m_ny
+        nz = m_nz
+        length = math.sqrt(ny * ny + nz * nz)
+        ny /= length
+        nz /= length
+        _, _, _, _, _, radius, _, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
+        if parameters[NORMAL] == HERTZ_LOCAL:
+            place = arc
+            at = foot
+            force, a, b = hertz_from_approach(
+                0.5 * nz / radius, 0.5 * max(bend, 1.0e-3), depth,
+                parameters[SHEAR_MODULUS], parameters[POISSON],
+            )  # fmt: skip
+        else:
+            force, a, b = _ellipse(zone, depth, radius, nz, parameters)
+        # Merge with the neighbour that is less separated.
+        separation = lobes[k, LOBE_SEPARATION]
+        other = k + 1
+        if k > 0 and lobes[k - 1, LOBE_SEPARATION] < separation:
+            separation = lobes[k - 1, LOBE_SEPARATION]
+            other = k - 1
+        if separation < 1.0 and parameters[NORMAL] != HERTZ_LOCAL:
+            deepest = max(depth, lobes[other, LOBE_PENETRATION])
+            level = (1.0 - VIRTUAL) * deepest
+            own = 0.0
+            own_arc = own_foot = own_ny = own_nz = 0.0
+            if depth > level:
+                own, own_arc, own_foot, own_ny, own_nz = zone_moments(
+                    table, side, arc, foot, depth, bend, lobes[k, LOBE_LEFT],
+                    lobes[k, LOBE_RIGHT], level, cy, cz, lx, ly, lz,
+                )  # fmt: skip
+            others = 0.0
+            if lobes[other, LOBE_PENETRATION] > level:
+                others, _, _, _, _ = zone_moments(
+                    table, side, lobes[other, LOBE_ARC], lobes[other, LOBE_FOOT],
+                    lobes[other, LOBE_PENETRATION], lobes[other, LOBE_CURVATURE],
+                    lobes[other, LOBE_LEFT], lobes[other, LOBE_RIGHT],
+                    level, cy, cz, lx, ly, lz,
+                )  # fmt: skip
+            share = own / (own + others)
+            merged_force, merged_a, merged_b = _ellipse(
+                own + others, deepest, radius, nz, parameters
+            )
+            rest = (1.0 - separation) * share
+            # A share's position counts with the force it brings.
+            weight = rest * merged_force / max(separation * force + rest * merged_force, 1.0e-30)
+            if own > 0.0:
+                place += weight * (own_arc / own - place)
+                at += weight * (own_foot / own - at)
+                length = math.sqrt(own_ny * own_ny + own_nz * own_nz)
+                ny += weight * (own_ny / length - ny)
+                nz += weight * (own_nz / length - nz)
+                length = math.sqrt(ny * ny + nz * nz)
+                ny /= length
+                nz /= length
+            force = separation * force + rest * merged_force
+            a = separation * a + (1.0 - separation) * merged_a
+            b = separation * b + rest * merged_b
+        if force <= 0.0 or b <= 0.0:
+            continue
+        px, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
+        row = out + kept * PATCH_WIDTH
+        rail_y, _, _, _, _, _ = curve_point(
+            table, int(table[side + RAIL]), table[side + RAIL_SPACING],
+            int(table[side + RAIL_SEGMENTS]), at,
+        )  # fmt: skip
+        result[row + PATCH_WHEEL_Y] = wheel_y
+        result[row + PATCH_RAIL_Y] = rail_y - table[side + DATUM]
+        result[row + PATCH_ANGLE] = math.atan2(-ny, nz)
+        result[row + PATCH_RADIUS] = radius
+        result[row + PATCH_NORMAL_FORCE] = force
+        result[row + PATCH_A] = a
+        result[row + PATCH_B] = b
+        result[row + PATCH_PENETRATION] = depth
+        result[row + PATCH_X] = px
+        result[row + PATCH_Y] = py - cy
+        result[row + PATCH_Z] = pz - cz
+        result[row + PATCH_NORMAL_Y] = ny
+        result[row + PATCH_NORMAL_Z] = nz
+        result[row + PATCH_ENERGY] = 0.4 * force * depth
+        kept += 1
+    return kept
+
+
+@njit(cache=True, error_model="numpy")
+def wheelset_forces(
+    table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result
+):  # fmt: skip
+    """Fill `result` with the wrench on the wheelset and its patches; return nothing.
+
+    table: contact_tables(). y, z [m]: the centre, z from `radius` above the rail tops; l: unit
+    vector of the axle, towards the left wheel; v [m/s], w [rad/s]: velocity of the centre over
+    the ground and angular velocity, track frame. rail_motion (8): lateral and vertical shift of
+    the left and the right rail [m], then their rates [m/s]. parameters: see module constants;
+    RAIL_SPEED is the speed at which the rails run backwards (a model in a moving frame).
+    Patches on the right side come back in the right-handed triad of the track frame; positions
+    and angles count towards the field side.
+    """
+    lobes = result[RESULT_SIZE:].reshape(MOST_LOBES, LOBE_WIDTH)
+    friction = parameters[FRICTION]
+    forward = vx + parameters[RAIL_SPEED]
+    speed = max(abs(forward), LEAST_SPEED)
+    law = int(parameters[LAW])
+    law_parameters = parameters[LAW_PARAMETERS:]
+    force_x = force_y = force_z = moment_x = moment_y = moment_z = 0.0
+    for hand in range(2):
+        mirror = 1.0 - 2.0 * hand
+        side = hand * HEADER
+        out = PATCHES + hand * MOST_LOBES * PATCH_WIDTH
+        count = _side_patches(
+            table, side, mirror * (y - rail_motion[2 * hand]),
+            table[RADIUS] + z - rail_motion[2 * hand + 1],
+            mirror * lx, ly, mirror * lz, parameters, result, out, lobes,
+        )  # fmt: skip
+        result[COUNT_LEFT + hand] = count
+        rail_vy = mirror * rail_motion[4 + 2 * hand]
+        rail_vz = rail_motion[5 + 2 * hand]
+        ux = forward
+        uy = mirror * vy - rail_vy
+        uz = vz - rail_vz
+        ox = mirror * wx
+        oy = wy
+        oz = mirror * wz
+        for k in range(count):
+            row = out + k * PATCH_WIDTH
+            px = result[row + PATCH_X]
+            py = result[row + PATCH_Y]
+            pz = result[row + PATCH_Z]
+            ny = result[row + PATCH_NORMAL_Y]
+            nz = result[row + PATCH_NORMAL_Z]
+            slip_x = ux + oy * pz - oz * py
+            slip_y = uy + oz * px - ox * pz
+            slip_z = uz + ox * py - oy * px
+            closing = -(ny * slip_y + nz * slip_z)
+            elastic = result[row + PATCH_NORMAL_FORCE]
+            normal_force = elastic * max(1.0 + parameters[DAMPING] * closing, 0.0)
+            creep_x = slip_x / speed
+            creep_y = (nz * slip_y - ny * slip_z) / speed
+            spin = (ny * oy + nz * oz) / speed
+            fx = 0.0
+            fy = 0.0
+            mz = 0.0
+            if normal_force > 0.0:
+                fx, fy, mz = creep_kernel(
+                    law, creep_x, creep_y, spin, result[row + PATCH_A], result[row + PATCH_B],
+                    normal_force, friction, parameters[SHEAR_MODULUS], parameters[POISSON],
+                    law_parameters,
+                )  # fmt: skip
+            gy = nz * fy + ny * normal_force
+            gz = -ny * fy + nz * normal_force
+            my = mz * ny
+            mzz = mz * nz
+            mx = py * gz - pz * gy
+            my += pz * fx - px * gz
+            mzz += px * gy - py * fx
+            force_x += fx
+            force_y += mirror * gy
+            force_z += gz
+            moment_x += mirror * mx
+            moment_y += my
+            moment_z += mirror * mzz
+            result[row + PATCH_NORMAL_FORCE] = normal_force
+            result[row + PATCH_CREEP_X] = creep_x
+            result[row + PATCH_CREEP_Y] = mirror * creep_y
+            result[row + PATCH_SPIN] = mirror * spin
+            result[row + PATCH_FX] = fx
+            result[row + PATCH_FY] = mirror * fy
+            result[row + PATCH_MZ] = mirror * mz
+            result[row + PATCH_Y] = mirror * py
+            result[row + PATCH_NORMAL_Y] = mirror * ny
+    result[0] = force_x
+    result[1] = force_y
+    result[2] = force_z
+    result[3] = moment_x
+    result[4] = moment_y
+    result[5] = moment_z

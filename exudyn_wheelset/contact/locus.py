@@ -1,0 +1,95 @@
+"""Where a wheel of revolution can touch a prismatic rail: the contact locus under yaw and roll.
+
+Source: the locus of points of a surface of revolution whose normal has no component along the
+rail (Wang 1984; Petersen and Hoffmann 2003 use the same condition). With the axle's unit vector
+l = (lx, ly, lz), a profile point at distance w along the axle, rolling radius r and t = dr/dw, the
+radial unit vector e of the contact point satisfies e.l = 0, |e| = 1 and, for the surface normal
+e - t l to be free of x, e_x = t lx. Hence
+
+    (e_y, e_z) = -lx^2 t/(1 - lx^2) (ly, lz) + sqrt(1 - lx^2 (1 + t^2))/(1 - lx^2) (lz, -ly)
+
+and the point is P = C + w l + r e. Its x is the lead (or lag) of a flange contact. The outward
+normal (from wheel into rail) is (e - t l)/sqrt(1 + t^2), which lies in the y-z plane.
+
+Frame: track frame; both sides are computed as the left one (the right one is mirrored before).
+"""
+
+import math
+
+from numba import njit
+
+from exudyn_wheelset.contact.curve import curve_point
+from exudyn_wheelset.contact.tables import (
+    RADIUS,
+    RAIL,
+    RAIL_SEGMENTS,
+    RAIL_SPACING,
+    TAPE,
+    WHEEL,
+    WHEEL_SEGMENTS,
+    WHEEL_SPACING,
+)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
+    """Return (x, y, z, normal_y, normal_z) of the contact locus; the normal points into the rail."""
+    q = 1.0 - lx * lx
+    root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
+    along = -lx * lx * t / q
+    ey = along * ly + root * lz
+    ez = along * lz - root * ly
+    scale = 1.0 / math.sqrt(1.0 + t * t)
+    return (
+        cx + w * lx + r * t * lx,
+        cy + w * ly + r * ey,
+        cz + w * lz + r * ez,
+        (ey - t * ly) * scale,
+        (ez - t * lz) * scale,
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
+    """Contact-locus point at the wheel's arc length: (x, y, z, ny, nz, radius, wheel_y, curvature).
+
+    x is relative to the axle's centre; curvature [1/m] of the profile, z up, negative where the
+    wheel is concave (throat).
+    """
+    offset = int(table[side + WHEEL])
+    segments = int(table[side + WHEEL_SEGMENTS])
+    y, y1, y2, z, z1, z2 = curve_point(table, offset, table[side + WHEEL_SPACING], segments, arc)
+    radius = table[side + RADIUS] - z
+    x, py, pz, ny, nz = locus_point(
+        table[side + TAPE] + y, radius, -z1 / y1, 0.0, cy, cz, lx, ly, lz
+    )
+    return x, py, pz, ny, nz, radius, y, y1 * z2 - z1 * y2
+
+
+@njit(cache=True, error_model="numpy")
+def rail_foot(table, side, py, pz, arc):
+    """Foot of the perpendicular from (py, pz) on the rail, from a near guess of its arc length.
+
+    Returns (arc, y, z, tangent_y, tangent_z, curvature, height); height [m] is the signed distance
+    of the point above the rail, curvature [1/m] is negative on a convex head.
+    """
+    offset = int(table[side + RAIL])
+    spacing = table[side + RAIL_SPACING]
+    segments = int(table[side + RAIL_SEGMENTS])
+    y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, arc)
+    arc += (py - y) * y1 + (pz - z) * z1
+    y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, arc)
+    # The rest is a Taylor step along the curve: the first correction leaves a residue of third order.
+    curvature = y1 * z2 - z1 * y2
+    height = (pz - z) * y1 - (py - y) * z1
+    along = (py - y) * y1 + (pz - z) * z1
+    bend = curvature * along
+    return (
+        arc + along,
+        y + along * y1,
+        z + along * z1,
+        y1 - bend * z1,
+        z1 + bend * y1,
+        curvature,
+        height - 0.5 * bend * along,
+    )

@@ -1,0 +1,383 @@
+"""Rigid contact geometry: how a wheelset lies on its rails for each lateral shift.
+
+Source: the search of Wang (1984) as in section 2.2 of the paper: the wheelset, shifted by y and
+yawed, is lifted and rolled until the least vertical distances between wheel and rail agree on
+both sides; lowering it by that distance gives the contact. Two methods find the roll angle:
+- "root": bracketed root of the difference of the two distances, which grows with the roll angle;
+- "nelder-mead": the paper's minimisation, |d_L - d_R| for single-point contact, and for
+  double-point contact on one side the weighted sum |d_1 - d_R| + |d_2 - d_R| + |d_1 - d_2|.
+docs/decisions/rigid-contact-by-bracketed-root.md compares them.
+
+Track frame, SI, roll about x (positive lifts the left wheel), yaw about z.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from numpy.typing import ArrayLike
+from scipy.optimize import minimize
+
+from exudyn_wheelset.contact.curve import curve_point
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.locus import wheel_point
+from exudyn_wheelset.contact.search import grid_foot
+from exudyn_wheelset.contact.tables import (
+    DATUM,
+    GRID,
+    GRID_START,
+    GRID_STEP,
+    HEADER,
+    NODE_COUNT,
+    NODE_WIDTH,
+    NODES,
+    RADIUS,
+    RAIL,
+    RAIL_HIGH,
+    RAIL_LOW,
+    RAIL_SEGMENTS,
+    RAIL_SPACING,
+    contact_tables,
+)
+from exudyn_wheelset.errors import ContactError, WheelsetError
+
+METHODS = ("root", "nelder-mead")
+# Local minima of the coarse scan within this height of the least are refined: the nodes, a
+# millimetre apart, see a minimum too high by at most 0.02 mm across, 0.1 mm along a steep flange.
+_SCAN_WINDOW = 2.0e-4
+_ROLL_RANGE = 0.12
+_SIDE_WIDTH = 7
+
+
+@dataclass(frozen=True)
+class ContactSide:
+    """Contact points of one side, arrays of the shape of y; positions towards the field side.
+
+    wheel_y [m] from the tape circle; rail_y [m] from the rail's highest point; angle [rad] of the
+    contact plane, positive where it falls towards the track centre; radius [m] rolling radius;
+    lead [m] how far ahead of the axle the contact lies; second_wheel_y, second_rail_y [m] and
+    second_gap [m]: the next local minimum of the distance and its remaining gap (NaN if none), a
+    double-point contact where the gap is zero.
+    """
+
+    wheel_y: np.ndarray
+    rail_y: np.ndarray
+    angle: np.ndarray
+    radius: np.ndarray
+    lead: np.ndarray
+    second_wheel_y: np.ndarray
+    second_rail_y: np.ndarray
+    second_gap: np.ndarray
+
+
+@dataclass(frozen=True)
+class ContactGeometry:
+    """Rigid contact of a wheelset over its lateral shift.
+
+    y [m], yaw [rad]: the input; roll [rad]; z [m]: height of the centre above (rail tops +
+    nominal radius); left, right: contact points.
+    """
+
+    y: np.ndarray
+    yaw: np.ndarray
+    roll: np.ndarray
+    z: np.ndarray
+    left: ContactSide
+    right: ContactSide
+
+    @property
+    def rolling_radius_difference(self) -> np.ndarray:
+        """r_left - r_right [m], positive for a shift to the left of a conical wheelset."""
+        return self.left.radius - self.right.radius
+
+    def double_point_contact(self, tolerance: float = 1.0e-6) -> np.ndarray:
+        """True where either side has a second contact within `tolerance` [m] of touching."""
+        with np.errstate(invalid="ignore"):
+            return (self.left.second_gap < tolerance) | (self.right.second_gap < tolerance)
+
+
+@njit(cache=True, error_model="numpy")
+def _vertical_gap(table, side, arc, cy, lx, ly, lz):
+    """Height of the wheel's point above the rail (centre at z = 0), sine between the tangents."""
+    _, py, pz, ny, nz, _, _, curvature = wheel_point(table, side, arc, cy, 0.0, lx, ly, lz)
+    at = grid_foot(table, side, arc, cy, 0.0, lx, ly, lz)
+    offset = int(table[side + RAIL])
+    spacing = table[side + RAIL_SPACING]
+    segments = int(table[side + RAIL_SEGMENTS])
+    for _ in range(12):
+        y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, at)
+        step = (py - y) / y1
+        at += step
+        if abs(step) < 1.0e-13:
+            break
+    y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, at)
+    sine = y1 * ny + z1 * nz
+    return pz - z, sine, curvature - (y1 * z2 - z1 * y2), at
+
+
+@njit(cache=True, error_model="numpy")
+def _refine(table, side, low, high, cy, lx, ly, lz):
+    """Local minimum of the vertical gap in [low, high]: (arc, gap, rail arc)."""
+    arc = 0.5 * (low + high)
+    for _ in range(60):
+        _, sine, bend, _ = _vertical_gap(table, side, arc, cy, lx, ly, lz)
+        if sine > 0.0:
+            high = arc
+        else:
+            low = arc
+        trial = arc - sine / bend if bend > 0.0 else 0.5 * (low + high)
+        if trial <= low or trial >= high:
+            trial = 0.5 * (low + high)
+        change = abs(trial - arc)
+        arc = trial
+        if change < 1.0e-12:
+            break
+    gap, _, _, at = _vertical_gap(table, side, arc, cy, lx, ly, lz)
+    return arc, gap, at
+
+
+@njit(cache=True, error_model="numpy")
+def least_gap(table, side, cy, lx, ly, lz):
+    """Least vertical distance of one side with the centre at z = 0, and the runner-up.
+
+    Returns (gap, wheel arc, rail arc, second gap, second wheel arc, second rail arc); the second
+    gap is inf where there is no other local minimum within the scan's window.
+    """
+    nodes = int(table[side + NODES])
+    count = int(table[side + NODE_COUNT])
+    grid = int(table[side + GRID])
+    start = table[side + GRID_START]
+    step = table[side + GRID_STEP]
+    gaps = np.full(count, np.inf)
+    lowest = np.inf
+    q = 1.0 - lx * lx
+    for node in range(count):
+        base = nodes + NODE_WIDTH * node
+        w = table[base + 1]
+        r = table[base + 2]
+        t = table[base + 3]
+        root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
+        along = -lx * lx * t / q
+        py = cy + w * ly + r * (along * ly + root * lz)
+        if py < table[side + RAIL_LOW] or py > table[side + RAIL_HIGH]:
+            continue
+        place = (py - start) / step
+        cell = int(place)
+        at = grid + 2 * cell
+        height = table[at] + (place - cell) * (table[at + 2] - table[at])
+        gaps[node] = w * lz + r * (along * lz - root * ly) - height
+        lowest = min(lowest, gaps[node])
+    best = second = np.inf
+    best_arc = best_at = second_arc = second_at = np.nan
+    if lowest == np.inf:
+        return best, best_arc, best_at, second, second_arc, second_at
+    for node in range(count):
+        gap = gaps[node]
+        before = gaps[node - 1] if node > 0 else np.inf
+        after = gaps[node + 1] if node + 1 < count else np.inf
+        window = _SCAN_WINDOW / table[nodes + NODE_WIDTH * node + 4]
+        if gap > lowest + window or gap > before or gap >= after:
+            continue
+        low = table[nodes + NODE_WIDTH * max(node - 1, 0)]
+        high = table[nodes + NODE_WIDTH * min(node + 1, count - 1)]
+        arc, gap, at = _refine(table, side, low, high, cy, lx, ly, lz)
+        if gap < best:
+            second, second_arc, second_at = best, best_arc, best_at
+            best, best_arc, best_at = gap, arc, at
+        elif gap < second and arc != best_arc:
+            second, second_arc, second_at = gap, arc, at
+    return best, best_arc, best_at, second, second_arc, second_at
+
+
+@njit(cache=True, error_model="numpy")
+def gap_difference(table, y, roll, yaw):
+    """Least distance on the left minus that on the right [m], and the left one."""
+    lx = -math.sin(yaw) * math.cos(roll)
+    ly = math.cos(yaw) * math.cos(roll)
+    lz = math.sin(roll)
+    left = least_gap(table, 0, y, lx, ly, lz)[0]
+    right = least_gap(table, HEADER, -y, -lx, ly, -lz)[0]
+    return left - right, left
+
+
+@njit(cache=True, error_model="numpy")
+def _roll_root(table, y, yaw, guess):
+    """Roll angle at which both distances agree, or NaN without contact in range."""
+    low, high = guess - 2.0e-4, guess + 2.0e-4
+    f_low = gap_difference(table, y, low, yaw)[0]
+    f_high = gap_difference(table, y, high, yaw)[0]
+    widen = 4.0e-4
+    while not (f_low <= 0.0 <= f_high):
+        if not (f_low <= 0.0):
+            high, f_high = low, f_low
+            low -= widen
+            f_low = gap_difference(table, y, low, yaw)[0]
+        else:
+            low, f_low = high, f_high
+            high += widen
+            f_high = gap_difference(table, y, high, yaw)[0]
+        widen *= 2.0
+        if widen > 2.0 * _ROLL_RANGE or not (f_low < np.inf) or not (f_high > -np.inf):
+            return np.nan
+    side = 0
+    for _ in range(80):
+        if high - low < 1.0e-13 or f_high == f_low:
+            break
+        trial = high - f_high * (high - low) / (f_high - f_low)
+        if not (low < trial < high):
+            trial = 0.5 * (low + high)
+        f = gap_difference(table, y, trial, yaw)[0]
+        if f == 0.0:
+            return trial
+        # Illinois: a retained end that holds the root back counts half.
+        if f > 0.0:
+            high, f_high = trial, f
+            if side == 1:
+                f_low *= 0.5
+            side = 1
+        else:
+            low, f_low = trial, f
+            if side == -1:
+                f_high *= 0.5
+            side = -1
+        if abs(f) < 1.0e-15:
+            return trial
+    return 0.5 * (low + high)
+
+
+@njit(cache=True, error_model="numpy")
+def _fill_side(table, side, y, lx, ly, lz, row):
+    gap, arc, at, second, second_arc, second_at = least_gap(table, side, y, lx, ly, lz)
+    offset = int(table[side + RAIL])
+    spacing = table[side + RAIL_SPACING]
+    segments = int(table[side + RAIL_SEGMENTS])
+    x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(table, side, arc, y, 0.0, lx, ly, lz)
+    row[0] = wheel_y
+    row[1] = curve_point(table, offset, spacing, segments, at)[0] - table[side + DATUM]
+    row[2] = math.atan2(ny, -nz)
+    row[3] = radius
+    row[4] = x
+    if second < np.inf:
+        row[5] = wheel_point(table, side, second_arc, y, 0.0, lx, ly, lz)[6]
+        row[6] = curve_point(table, offset, spacing, segments, second_at)[0] - table[side + DATUM]
+    else:
+        row[5] = row[6] = np.nan
+    return gap, second - gap if second < np.inf else np.nan
+
+
+@njit(cache=True, error_model="numpy")
+def _geometry(table, y, yaw, roll, known, heights, left, right, second):
+    """Fill the arrays; `known` says that roll is given and only the points are wanted."""
+    guess = 0.0
+    for k in range(len(y)):
+        if not known:
+            roll[k] = _roll_root(table, y[k], yaw[k], guess)
+            if roll[k] != roll[k]:
+                return k
+            guess = roll[k]
+        lx = -math.sin(yaw[k]) * math.cos(roll[k])
+        ly = math.cos(yaw[k]) * math.cos(roll[k])
+        lz = math.sin(roll[k])
+        gap_left, second[k, 0] = _fill_side(table, 0, y[k], lx, ly, lz, left[k])
+        gap_right, second[k, 1] = _fill_side(table, HEADER, -y[k], -lx, ly, -lz, right[k])
+        heights[k] = -0.5 * (gap_left + gap_right) - table[RADIUS]
+        if heights[k] != heights[k]:
+            return k
+    return -1
+
+
+def contact_geometry(
+    wheelset: Wheelset,
+    track: Track,
+    y: ArrayLike,
+    yaw: ArrayLike = 0.0,
+    method: str = "root",
+    weights: tuple[float, float, float] = (1.0, 1.0, 1.0),
+) -> ContactGeometry:
+    """Return the rigid contact of `wheelset` on `track` for lateral shifts y.
+
+    y [m] positive to the left, yaw [rad] positive nose left; both broadcast. method: "root" or
+    "nelder-mead" (the paper's). weights: of the three differences of the double-point objective
+    of "nelder-mead".
+    Raises ContactError where no roll angle brings both wheels onto their rails.
+    """
+    if method not in METHODS:
+        raise WheelsetError(f"method {method!r} is unknown: use one of {', '.join(METHODS)}")
+    shifts, yaws = np.broadcast_arrays(
+        np.atleast_1d(np.asarray(y, dtype=float)), np.asarray(yaw, dtype=float)
+    )
+    if not (np.all(np.isfinite(shifts)) and np.all(np.isfinite(yaws))):
+        raise WheelsetError("y and yaw must be finite numbers [m, rad]")
+    if np.any(np.abs(yaws) > 0.3):
+        raise WheelsetError(f"yaw up to {np.abs(yaws).max():g} rad: give radians within +-0.3")
+    shifts = np.ascontiguousarray(shifts)
+    yaws = np.ascontiguousarray(yaws)
+    table = contact_tables(wheelset, track)
+    size = len(shifts)
+    roll, heights = np.zeros(size), np.zeros(size)
+    left, right = np.zeros((size, _SIDE_WIDTH)), np.zeros((size, _SIDE_WIDTH))
+    second = np.zeros((size, 2))
+    known = method == "nelder-mead"
+    if known:
+        roll[:] = [
+            _roll_by_nelder_mead(table, shift, angle, weights)
+            for shift, angle in zip(shifts, yaws, strict=True)
+        ]
+    failed = _geometry(table, shifts, yaws, roll, known, heights, left, right, second)
+    if failed >= 0:
+        raise ContactError(
+            f"no rigid contact at y = {shifts[failed] * 1e3:.3f} mm, "
+            f"yaw = {yaws[failed] * 1e3:.3f} mrad: a wheel has left its rail; "
+            "give a smaller shift or check gauge and tape_half_distance"
+        )
+    sides = [
+        ContactSide(*rows.T.copy()[:5], *rows.T.copy()[5:], gap)
+        for rows, gap in ((left, second[:, 0].copy()), (right, second[:, 1].copy()))
+    ]
+    return ContactGeometry(shifts, yaws, roll, heights, sides[0], sides[1])
+
+
+def _roll_by_nelder_mead(
+    table: np.ndarray, y: float, yaw: float, weights: tuple[float, float, float]
+) -> float:
+    """Roll angle that minimises the paper's objective (section 2.2)."""
+
+    def single(x: np.ndarray) -> float:
+        return abs(gap_difference(table, y, float(x[0]), yaw)[0])
+
+    def double(x: np.ndarray) -> float:
+        roll = float(x[0])
+        cosine, lz = math.cos(roll), math.sin(roll)
+        lx, ly = -math.sin(yaw) * cosine, math.cos(yaw) * cosine
+        left = least_gap(table, 0, y, lx, ly, lz)
+        right = least_gap(table, HEADER, -y, -lx, ly, -lz)
+        one, other = (left, right) if left[3] - left[0] <= right[3] - right[0] else (right, left)
+        if not np.isfinite(one[3]):
+            return abs(one[0] - other[0])
+        first, second, third = weights
+        return (
+            first * abs(one[0] - other[0])
+            + second * abs(one[3] - other[0])
+            + third * abs(one[0] - one[3])
+        )
+
+    options = {"xatol": 1e-12, "fatol": 1e-15, "maxiter": 400, "maxfev": 800}
+    start = np.array([[0.0], [1e-3]])
+    found = minimize(
+        single, [0.0], method="Nelder-Mead", options={**options, "initial_simplex": start}
+    )
+    roll = float(found.x[0])
+    cosine, lz = math.cos(roll), math.sin(roll)
+    lx, ly = -math.sin(yaw) * cosine, math.cos(yaw) * cosine
+    left = least_gap(table, 0, y, lx, ly, lz)
+    right = least_gap(table, HEADER, -y, -lx, ly, -lz)
+    if min(left[3] - left[0], right[3] - right[0]) < 1e-7:
+        around = np.array([[roll], [roll + 1e-5]])
+        found = minimize(
+            double, [roll], method="Nelder-Mead", options={**options, "initial_simplex": around}
+        )
+        roll = float(found.x[0])
+    return roll

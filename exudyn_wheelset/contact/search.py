@@ -1,0 +1,301 @@
+"""Patches of one wheel: where the contact locus reaches into the rail, and how far.
+
+At every evaluation, without a table of contact positions: a scan of the wheel's nodes finds the
+local maxima of the penetration (lobes) and the valleys between them; a safeguarded Newton
+iteration on the angle between wheel and rail tangents refines each. Around a lobe the zone of
+virtual penetration, where penetration exceeds (1 - VIRTUAL) of its maximum, is integrated by
+Gauss's rule. For a parabola of curvature B the integral is
+
+    I = (4/3) (VIRTUAL delta)^(3/2) / sqrt(B)   so   B = (16/9) (VIRTUAL delta)^3 / I^2
+
+which defines the curvature that Hertz's theory gets: it equals the true one where that is constant
+over the patch, and changes smoothly where the patch straddles a jump of curvature (R300/R80/R13 of
+a rail head). The patch's position and normal are the weighted means over the same zone.
+VIRTUAL = 0.55 is the value of Kik and Piotrowski (1996); the mean curvature so found agrees with
+full half-space solutions on S1002/UIC60 to about 1 % in force (tests/test_contact_against_CONTACT).
+
+Two neighbouring lobes merge smoothly: `separation` runs from 0 (no valley) to 1 (the valley leaves
+the virtual penetration), see forces.py.
+
+Frame: track frame, left side; lengths in metres.
+"""
+
+import math
+
+from numba import njit
+
+from exudyn_wheelset.contact.locus import rail_foot, wheel_point
+from exudyn_wheelset.contact.tables import (
+    GRID,
+    GRID_START,
+    GRID_STEP,
+    NODE_COUNT,
+    NODE_WIDTH,
+    NODES,
+    RAIL_HIGH,
+    RAIL_LOW,
+    WHEEL_SEGMENTS,
+    WHEEL_SPACING,
+)
+
+VIRTUAL = 0.55
+MOST_LOBES = 3
+SCAN_MARGIN = 6.0e-5
+LOBE_WIDTH = 8
+LOBE_ARC, LOBE_FOOT, LOBE_PENETRATION, LOBE_LEFT, LOBE_RIGHT, LOBE_SEPARATION = 0, 1, 2, 3, 4, 5
+LOBE_CURVATURE = 6
+
+GAUSS_4 = (
+    (0.06943184420297371, 0.17392742256872693),
+    (0.33000947820757187, 0.32607257743127307),
+    (0.6699905217924281, 0.32607257743127307),
+    (0.9305681557970262, 0.17392742256872693),
+)
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def probe(table, side, arc, foot, cy, cz, lx, ly, lz):
+    """Penetration at the wheel's arc length: (penetration, sine, 2 B, foot).
+
+    sine: of the angle from the rail's tangent to the wheel's, the slope of -penetration along the
+    wheel; 2 B [1/m]: relative curvature, its derivative.
+    """
+    _, py, pz, ny, nz, _, _, wheel_curvature = wheel_point(table, side, arc, cy, cz, lx, ly, lz)
+    foot, _, _, ty, tz, rail_curvature, height = rail_foot(table, side, py, pz, foot)
+    return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
+
+
+@njit(cache=True, error_model="numpy")
+def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
+    """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
+    _, py, _, _, _, _, _, _ = wheel_point(table, side, arc, cy, cz, lx, ly, lz)
+    py = min(max(py, table[side + RAIL_LOW]), table[side + RAIL_HIGH])
+    place = (py - table[side + GRID_START]) / table[side + GRID_STEP]
+    cell = int(place)
+    base = int(table[side + GRID]) + 2 * cell
+    return table[base + 1] + (place - cell) * (table[base + 3] - table[base + 1])
+
+
+@njit(cache=True, error_model="numpy")
+def level_tangent(table, side, low, high, sign, cy, cz, lx, ly, lz):
+    """Wheel arc length in [low, high] where the tangents agree: a lobe (sign 1) or valley (-1).
+
+    Returns (arc, foot, penetration, 2 B).
+    """
+    arc = 0.5 * (low + high)
+    foot = grid_foot(table, side, arc, cy, cz, lx, ly, lz)
+    penetration = 0.0
+    bend = 1.0
+    for _ in range(40):
+        penetration, sine, bend, new_foot = probe(table, side, arc, foot, cy, cz, lx, ly, lz)
+        slope = sign * sine
+        if slope > 0.0:
+            high = arc
+        else:
+            low = arc
+        step = -sine / bend if sign * bend > 0.0 else high - low
+        trial = arc + step
+        if trial <= low or trial >= high:
+            trial = 0.5 * (low + high)
+        foot = new_foot + (trial - arc)
+        change = abs(trial - arc)
+        # Penetration is stationary here: a Taylor step over the last change is exact to 1e-13 m.
+        penetration -= sine * (trial - arc) + 0.5 * bend * (trial - arc) ** 2
+        arc = trial
+        if change < 1.0e-7 or high - low < 1.0e-10:
+            break
+    return arc, foot, penetration, bend
+
+
+@njit(cache=True, error_model="numpy")
+def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
+    """Fill `lobes` (MOST_LOBES, LOBE_WIDTH) for one side; return their number.
+
+    Per lobe: wheel arc of the maximum, rail foot, penetration, territory [left, right] in wheel
+    arc, separation from the next lobe, 2 B. Lobes beyond MOST_LOBES (the least deep) are dropped.
+    """
+    nodes = int(table[side + NODES])
+    count = int(table[side + NODE_COUNT])
+    grid = int(table[side + GRID])
+    start = table[side + GRID_START]
+    step = table[side + GRID_STEP]
+    low = table[side + RAIL_LOW]
+    high = table[side + RAIL_HIGH]
+    found = 0
+    before = -1.0
+    last = -1.0
+    valley = 1.0
+    valley_node = -1
+    first_node = -1
+    final_node = -1
+    for node in range(count):
+        base = nodes + NODE_WIDTH * node
+        w = table[base + 1]
+        r = table[base + 2]
+        t = table[base + 3]
+        q = 1.0 - lx * lx
+        root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
+        along = -lx * lx * t / q
+        py = cy + w * ly + r * (along * ly + root * lz)
+        if py < low or py > high:
+            if first_node >= 0:
+                break
+            continue
+        if first_node < 0:
+            first_node = node
+        final_node = node
+        pz = cz + w * lz + r * (along * lz - root * ly)
+        place = (py - start) / step
+        cell = int(place)
+        at = grid + 2 * cell
+        depth = (table[at] + (place - cell) * (table[at + 2] - table[at]) - pz) * table[base + 4]
+        if last > -SCAN_MARGIN and last >= before and last > depth and node - 1 >= first_node:
+            found = _note_lobe(table, nodes, lobes, found, node - 1, last, valley_node)
+            valley = last
+            valley_node = node - 1
+        if found > 0 and depth < valley:
+            valley = depth
+            valley_node = node
+        before = last
+        last = depth
+    if last > -SCAN_MARGIN and last >= before and final_node > first_node >= 0:
+        found = _note_lobe(table, nodes, lobes, found, final_node, last, valley_node)
+    if found == 0:
+        return 0
+    return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node)
+
+
+@njit(cache=True, error_model="numpy")
+def _note_lobe(table, nodes, lobes, found, node, depth, valley_node):
+    """Store a candidate; territory borders are node numbers until they are refined."""
+    if found == MOST_LOBES:
+        least = 0
+        for k in range(1, found):
+            if lobes[k, LOBE_PENETRATION] < lobes[least, LOBE_PENETRATION]:
+                least = k
+        if lobes[least, LOBE_PENETRATION] >= depth:
+            return found
+        for k in range(least, found - 1):
+            for j in range(LOBE_WIDTH):
+                lobes[k, j] = lobes[k + 1, j]
+        found -= 1
+    lobes[found, LOBE_ARC] = node
+    lobes[found, LOBE_PENETRATION] = depth
+    lobes[found, LOBE_LEFT] = valley_node
+    return found + 1
+
+
+@njit(cache=True, error_model="numpy")
+def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node):
+    nodes = int(table[side + NODES])
+    kept = 0
+    for k in range(found):
+        node = int(lobes[k, LOBE_ARC])
+        valley_node = int(lobes[k, LOBE_LEFT])
+        left = table[nodes + NODE_WIDTH * max(node - 1, 0)]
+        right = table[nodes + NODE_WIDTH * min(node + 1, final_node)]
+        arc, foot, penetration, bend = level_tangent(
+            table, side, left, right, 1.0, cy, cz, lx, ly, lz
+        )
+        if penetration <= 0.0:
+            continue
+        lobes[kept, LOBE_ARC] = arc
+        lobes[kept, LOBE_FOOT] = foot
+        lobes[kept, LOBE_PENETRATION] = penetration
+        lobes[kept, LOBE_CURVATURE] = bend
+        lobes[kept, LOBE_LEFT] = table[nodes + NODE_WIDTH * first_node]
+        lobes[kept, LOBE_SEPARATION] = 1.0
+        if kept > 0:
+            before = table[nodes + NODE_WIDTH * max(valley_node - 1, 0)]
+            after = table[nodes + NODE_WIDTH * min(valley_node + 1, final_node)]
+            before = max(before, lobes[kept - 1, LOBE_ARC])
+            after = min(after, arc)
+            border, _, depth, _ = level_tangent(
+                table, side, before, after, -1.0, cy, cz, lx, ly, lz
+            )
+            lobes[kept - 1, LOBE_RIGHT] = border
+            lobes[kept, LOBE_LEFT] = border
+            smaller = min(penetration, lobes[kept - 1, LOBE_PENETRATION])
+            prominence = (smaller - depth) / (VIRTUAL * smaller)
+            prominence = min(max(prominence, 0.0), 1.0)
+            lobes[kept - 1, LOBE_SEPARATION] = prominence * prominence * (3.0 - 2.0 * prominence)
+        kept += 1
+    if kept > 0:
+        segments = table[side + WHEEL_SEGMENTS]
+        lobes[kept - 1, LOBE_RIGHT] = segments * table[side + WHEEL_SPACING]
+        lobes[kept - 1, LOBE_SEPARATION] = 1.0
+    return kept
+
+
+@njit(cache=True, error_model="numpy")
+def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz):
+    """Wheel arc between `arc` (a maximum) and `limit` where the penetration falls to `level`."""
+    direction = 1.0 if limit > arc else -1.0
+    reach = abs(limit - arc)
+    excess = penetration - level
+    # A sharper start than the true curvature only costs a step; a flat one would leave the zone.
+    guess = math.sqrt(2.0 * excess / max(bend, 0.5))
+    inner = 0.0
+    outer = reach
+    distance = min(guess, reach)
+    for _ in range(12):
+        depth, sine, _, new_foot = probe(
+            table, side, arc + direction * distance, foot + direction * distance,
+            cy, cz, lx, ly, lz,
+        )  # fmt: skip
+        rest = depth - level
+        if abs(rest) < 1.0e-4 * excess:
+            break
+        if rest > 0.0:
+            if distance >= reach:
+                break
+            inner = distance
+        else:
+            outer = distance
+        slope = direction * sine
+        trial = distance + rest / slope if slope > 1.0e-9 else outer
+        if trial <= inner or trial >= outer:
+            trial = 0.5 * (inner + outer) if outer < reach or trial <= inner else reach
+        # Newton may leap over a rise behind a shallow dip: go out in steps of half the guess.
+        distance = min(trial, distance + 0.75 * guess)
+        if outer - inner < 1.0e-9:
+            break
+    return arc + direction * distance
+
+
+@njit(cache=True, error_model="numpy")
+def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, cy, cz, lx, ly, lz):
+    """Integrals over the zone around `arc` where penetration exceeds `level`.
+
+    Returns (I, int arc, int foot, int normal_y, int normal_z), each weighted with penetration
+    minus level [m]; the normal is the mean of wheel's and rail's, from rail into wheel.
+    """
+    total = 0.0
+    total_arc = 0.0
+    total_foot = 0.0
+    total_ny = 0.0
+    total_nz = 0.0
+    for half in range(2):
+        limit = left if half == 0 else right
+        end = zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz)
+        length = abs(end - arc)
+        for k in range(4):
+            place = arc + (end - arc) * GAUSS_4[k][0]
+            _, py, pz, ny, nz, _, _, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
+            at, _, _, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
+            weight = GAUSS_4[k][1] * length * max(-height - level, 0.0)
+            total += weight
+            total_arc += weight * place
+            total_foot += weight * at
+            total_ny += weight * 0.5 * (-tz - ny)
+            total_nz += weight * 0.5 * (ty - nz)
+    return total, total_arc, total_foot, total_ny, total_nz
+
+
+__all__ = [
+    "LOBE_WIDTH",
+    "MOST_LOBES",
+    "VIRTUAL",
+    "find_lobes",
+    "zone_moments",
+]

@@ -1,0 +1,135 @@
+"""One flat table with everything the contact kernels know about a wheelset on its track.
+
+The kernels take one float64 array instead of many, because unpacking an array costs a call from
+Python more than the work on a patch. Each side has a header of HEADER numbers (left at 0, right at
+HEADER); the right side is stored mirrored to the left, so that both sides run the same code.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.profiles import Profile
+
+TAPE, RADIUS, DATUM = 0, 1, 2
+WHEEL, WHEEL_SPACING, WHEEL_SEGMENTS = 3, 4, 5
+RAIL, RAIL_SPACING, RAIL_SEGMENTS = 6, 7, 8
+NODES, NODE_COUNT = 9, 10
+GRID, GRID_START, GRID_STEP, GRID_COUNT = 11, 12, 13, 14
+RAIL_LOW, RAIL_HIGH = 15, 16
+HEADER = 24
+NODE_WIDTH = 6
+
+# A node a millimetre sees every patch: the sharpest curvatures in use (12 mm flange tip, 13 mm
+# gauge corner) sag 0.02 mm over half a millimetre, less than SCAN_MARGIN in search.py.
+NODE_SPACING = 1.0e-3
+GRID_SPACING = 0.25e-3
+# Steeper parts (flange back, web side of the head) never carry a wheel; without them height is a
+# function of the lateral position.
+STEEPEST_SLOPE = 14.0
+
+
+def contact_tables(wheelset: Wheelset, track: Track) -> np.ndarray:
+    """Return the flat table of `wheelset` on `track`; read-only, built once for each pair."""
+    return _contact_tables(_Identity(wheelset), _Identity(track))
+
+
+class _Identity:
+    """Hashes by identity: profiles hold arrays, which have no hash."""
+
+    def __init__(self, what: object) -> None:
+        self.what = what
+
+    def __hash__(self) -> int:
+        return id(self.what)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Identity) and other.what is self.what
+
+
+@lru_cache(maxsize=64)
+def _contact_tables(wheelset_key: _Identity, track_key: _Identity) -> np.ndarray:
+    wheelset: Wheelset = wheelset_key.what  # type: ignore[assignment]
+    track: Track = track_key.what  # type: ignore[assignment]
+    blocks: list[np.ndarray] = []
+    size = 2 * HEADER
+    headers = np.zeros((2, HEADER))
+    sides = [(wheelset.wheel, wheelset.radius, track.left_placement)]
+    right_wheel = wheelset.right_wheel or wheelset.wheel
+    right_radius = wheelset.right_radius or wheelset.radius
+    sides.append((right_wheel, right_radius, track.right_placement))
+    for header, (wheel, radius, rail) in zip(headers, sides, strict=True):
+        header[TAPE] = wheelset.tape_half_distance
+        header[RADIUS] = radius
+        header[DATUM] = rail.datum_y
+        for block, place in _side_blocks(header, wheel, radius, rail, wheelset.tape_half_distance):
+            header[place] = size
+            blocks.append(block.ravel())
+            size += block.size
+    table = np.concatenate([headers.ravel(), *blocks])
+    table.setflags(write=False)
+    return table
+
+
+def _side_blocks(header, wheel: Profile, radius: float, rail: RailPlacement, tape: float):
+    wheel_table = wheel.arc_table()
+    wheel_curve = _gentle_part(wheel_table.coefficients, wheel.name)
+    rail_curve = _gentle_part(rail.coefficients, "rail")
+    header[WHEEL_SPACING] = wheel_table.ds
+    header[WHEEL_SEGMENTS] = len(wheel_curve)
+    header[RAIL_SPACING] = rail.spacing
+    header[RAIL_SEGMENTS] = len(rail_curve)
+    nodes = _nodes(wheel_curve, wheel_table.ds, radius, tape)
+    header[NODE_COUNT] = len(nodes)
+    grid, start = _grid(rail_curve, rail.spacing)
+    header[GRID_START] = start
+    header[GRID_STEP] = GRID_SPACING
+    header[GRID_COUNT] = len(grid)
+    header[RAIL_LOW] = start + GRID_SPACING
+    header[RAIL_HIGH] = start + (len(grid) - 2) * GRID_SPACING
+    return [(wheel_curve, WHEEL), (rail_curve, RAIL), (nodes, NODES), (grid, GRID)]
+
+
+def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
+    gentle = np.abs(coefficients[:, 5]) <= STEEPEST_SLOPE * coefficients[:, 1]
+    middle = int(np.argmin(np.abs(coefficients[:, 0] - np.mean(coefficients[:, 0]))))
+    if not gentle[middle]:
+        middle = int(np.flatnonzero(gentle)[len(np.flatnonzero(gentle)) // 2])
+    first = middle
+    while first > 0 and gentle[first - 1]:
+        first -= 1
+    last = middle
+    while last + 1 < len(gentle) and gentle[last + 1]:
+        last += 1
+    if last - first < 20:
+        raise WheelsetError(f"profile {name!r}: no usable running surface is left")
+    return np.ascontiguousarray(coefficients[first : last + 1])
+
+
+def _nodes(curve: np.ndarray, spacing: float, radius: float, tape: float) -> np.ndarray:
+    """Per node: arc length, distance from the axle's centre, radius, dr/dy, 1/sqrt(1+(dr/dy)^2)."""
+    step = max(int(round(NODE_SPACING / spacing)), 1)
+    picked = np.arange(0, len(curve), step)
+    rows = curve[picked]
+    slope = -rows[:, 5] / rows[:, 1]
+    nodes = np.zeros((len(picked), NODE_WIDTH))
+    nodes[:, 0] = picked * spacing
+    nodes[:, 1] = tape + rows[:, 0]
+    nodes[:, 2] = radius - rows[:, 4]
+    nodes[:, 3] = slope
+    nodes[:, 4] = 1.0 / np.sqrt(1.0 + slope * slope)
+    return nodes
+
+
+def _grid(curve: np.ndarray, spacing: float) -> tuple[np.ndarray, float]:
+    """Rail height and arc length on a uniform lateral grid."""
+    start = float(curve[0, 0])
+    count = int((curve[-1, 0] - start) / GRID_SPACING)
+    lateral = start + GRID_SPACING * np.arange(count)
+    arc = np.interp(lateral, curve[:, 0], spacing * np.arange(len(curve)))
+    height = np.interp(lateral, curve[:, 0], curve[:, 4])
+    return np.column_stack([height, arc]), start
