@@ -1,0 +1,468 @@
+"""An assembled Exudyn system as x' = f(x; speed), with the cyclic coordinates removed.
+
+The right-hand side is that of Exudyn's own solver: system coordinates are set, generalised forces
+(loads and their user functions included) and mass matrix are computed, and the accelerations are
+turned into rates of the reduced state (see `reduction`). Exudyn's ComputeLinearizedSystem and
+ComputeODE2Eigenvalues are not used: they leave the derivatives of loads out and perturb a
+spinning body in its spinning frame.
+
+Rigid bodies with NodeType.RotationRotationVector have global translational velocities and angular
+velocities in body components as generalised velocities. All other nodes keep their coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn.utilities import SensorNode
+from scipy.interpolate import CubicSpline
+
+from exudyn_wheelset.analyses.reduction import (
+    CYCLIC,
+    ROTATION,
+    expand_state,
+    reduce_coordinates,
+    state_rate,
+)
+from exudyn_wheelset.analyses.system import Array, DynamicSystem, SimulationError
+from exudyn_wheelset.errors import AnalysisError
+
+# Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
+DISPLACEMENT_SCALE = 1.0e-3
+VELOCITY_SCALE = 1.0e-2
+
+_ROTATION_VECTOR_NODE = "RigidBodyRotVecLG"
+_RIGID_BODY_POSITIONS = ("x [m]", "y [m]", "z [m]", "yaw [rad]", "roll [rad]", "pitch [rad]")
+_RIGID_BODY_VELOCITIES = (
+    "vx [m/s]",
+    "vy [m/s]",
+    "vz [m/s]",
+    "wx [rad/s]",
+    "wy [rad/s]",
+    "wz [rad/s]",
+)
+
+
+class ExudynSystem(DynamicSystem):
+    """A complete Exudyn model as an autonomous system over the forward speed.
+
+    mbs             the MainSystem; sensors of the nodes are added and it is assembled here, so
+                    nothing may be added to it afterwards
+    SC              its SystemContainer, which is kept alive
+    set_speed       called as set_speed(mbs, speed) before the first evaluation at a speed [m/s]
+    spinning_nodes  nodes of axisymmetric bodies that spin about their own y axis, whose spin angle
+                    is cyclic; as a mapping node -> rolling radius [m] the steady spin
+                    speed/radius is where the search for the equilibrium starts
+    cyclic          second-order coordinates (indices in the system) whose position has no
+                    influence and is left out; their velocity stays a state. As a mapping
+                    index -> velocity per forward speed it gives the steady velocity to start from
+    scales          typical magnitude of each state; 1e-3 for positions and 1e-2 for velocities if
+                    left out
+    state_names     names with units in brackets; from the nodes if left out
+    displacement_indices  states whose amplitude is reported; all positions if left out
+    solver_type     solver of `simulate`: a member of exudyn.DynamicSolverType or its name
+    step            largest time step of `simulate` [s]
+    settings        exudyn.SimulationSettings for `simulate`; steps, times and output are set here
+
+    Raises AnalysisError for constraints (algebraic equations), data coordinates (hidden states)
+    and nodes that cannot spin.
+    """
+
+    def __init__(
+        self,
+        mbs: exu.MainSystem,
+        SC: exu.SystemContainer | None = None,
+        *,
+        set_speed: Callable[[exu.MainSystem, float], None],
+        spinning_nodes: Sequence[int] | Mapping[int, float] = (),
+        cyclic: Sequence[int] | Mapping[int, float] = (),
+        name: str = "Exudyn system",
+        scales: Sequence[float] | Array | None = None,
+        state_names: Sequence[str] | None = None,
+        displacement_indices: Sequence[int] | None = None,
+        solver_type: exu.DynamicSolverType | str = "RK44",
+        step: float = 5e-4,
+        settings: exu.SimulationSettings | None = None,
+        parameters: Mapping[str, Any] | None = None,
+    ) -> None:
+        self.name = name
+        # Exudyn's stub files miss `self` and accept lists only where arrays are taken too.
+        self.mbs: Any = mbs
+        self.parameters = dict(parameters or {})
+        self.step = step
+        self._container = SC
+        self._set_speed = set_speed
+        self._speed: float | None = None
+        if isinstance(solver_type, str):
+            if not hasattr(exu.DynamicSolverType, solver_type):
+                known = ", ".join(sorted(exu.DynamicSolverType.__members__))
+                raise AnalysisError(f"{name}: no solver type {solver_type!r}; known are {known}")
+            solver_type = getattr(exu.DynamicSolverType, solver_type)
+        self._solver_type = solver_type
+        self._settings = _copy_settings(settings)
+
+        self._add_sensors()
+        mbs.Assemble()
+        self._data: Any = mbs.systemData
+        self._initialise_solver()
+        self._lay_out(dict(_as_mapping(spinning_nodes)), dict(_as_mapping(cyclic)))
+
+        size = len(self._automatic_names)
+        self.state_names = tuple(state_names or self._automatic_names)
+        if scales is None:
+            scales = [DISPLACEMENT_SCALE] * self._positions + [VELOCITY_SCALE] * self._order2
+            scales += [VELOCITY_SCALE] * self._order1
+        self.scales = np.array(scales, dtype=float)
+        for what, length in (("state_names", len(self.state_names)), ("scales", len(self.scales))):
+            if length != size:
+                raise AnalysisError(
+                    f"{name}: {what} has {length} entries, the system has {size} states: "
+                    f"{', '.join(self._automatic_names)}"
+                )
+        if displacement_indices is None:
+            displacement_indices = range(self._positions)
+        self.displacement_indices = tuple(displacement_indices)
+        self._check_mass_matrix()
+
+    def derivative(self, state: Array, speed: float) -> Array:
+        """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,).
+
+        Raises AnalysisError with the words of a user function that gave up.
+        """
+        self._use_speed(speed)
+        expand_state(
+            np.ascontiguousarray(state, dtype=float),
+            self._position_of,
+            self._rotations,
+            self._reference,
+            self._coordinates,
+            self._velocities,
+            self._first_order,
+        )
+        data, solver, mbs = self._data, self._solver, self.mbs
+        data.SetODE2Coordinates(self._coordinates)
+        data.SetODE2Coordinates_t(self._velocities)
+        try:
+            if self._order1:
+                data.SetODE1Coordinates(self._first_order)
+            solver.ComputeODE2RHS(mbs)
+            if self._order1:
+                solver.ComputeODE1RHS(mbs)
+            force = solver.GetSystemResidual()
+            if not self._constant_mass:
+                solver.ComputeMassMatrix(mbs)
+                self._inverse_mass = np.linalg.inv(solver.GetSystemMassMatrix())
+        except Exception as error:
+            raise AnalysisError(f"{self.name}: {_reason(error)}") from error
+        rate = np.empty(self.scales.shape[0])
+        state_rate(state, force, self._inverse_mass, self._position_of, self._rotations, rate)
+        return rate
+
+    def expand(self, state: Array) -> tuple[Array, Array]:
+        """Second-order coordinates and their velocities (nq,), (nq,) of a state.
+
+        Cyclic coordinates and spin angles come out as zero. Coordinates are measured from the
+        reference configuration, as Exudyn's are.
+        """
+        coordinates, velocities = np.zeros(self._order2), np.zeros(self._order2)
+        expand_state(
+            np.ascontiguousarray(state, dtype=float),
+            self._position_of,
+            self._rotations,
+            self._reference,
+            coordinates,
+            velocities,
+            np.zeros(self._order1),
+        )
+        return coordinates, velocities
+
+    def reduce(
+        self, coordinates: Array, velocities: Array, first_order: Array | None = None
+    ) -> Array:
+        """State (n,) of Exudyn's coordinates and velocities (nq,), (nq,)."""
+        state = np.zeros(len(self.state_names))
+        reduce_coordinates(
+            np.ascontiguousarray(coordinates, dtype=float),
+            np.ascontiguousarray(velocities, dtype=float),
+            np.zeros(self._order1) if first_order is None else np.asarray(first_order, float),
+            self._position_of,
+            self._rotations,
+            self._reference,
+            state,
+        )
+        return state
+
+    def initial_state(self, speed: float) -> Array:
+        """State of the model's initial values, with the steady spin and forward velocities."""
+        self._use_speed(speed)
+        initial = exu.ConfigurationType.Initial
+        state = self.reduce(
+            self._data.GetODE2Coordinates(initial),
+            self._data.GetODE2Coordinates_t(initial),
+            self._data.GetODE1Coordinates(initial),
+        )
+        for index, ratio in self._steady_velocities:
+            state[self._positions + index] = ratio * speed
+        return state
+
+    def equilibrium(self, speed: float, guess: Array | None = None) -> Array:
+        """Steady state (n,) at a forward speed [m/s]; the guess defaults to `initial_state`."""
+        return super().equilibrium(speed, self.initial_state(speed) if guess is None else guess)
+
+    def simulate(self, state: Array, speed: float, times: Array) -> Array:
+        """Motion from `state` (n,) at times[0] by Exudyn's own solver, at `times` (m,) [s].
+
+        Times at equal distances are met exactly by a whole number of steps, others are
+        interpolated by splines. Returns (m, n). Raises SimulationError, which keeps the samples
+        before, if the solver or a user function gives up or the motion is no longer finite.
+        """
+        times = np.asarray(times, dtype=float)
+        if times.ndim != 1 or len(times) < 2 or np.any(np.diff(times) <= 0.0):
+            raise AnalysisError(f"{self.name}: times must be at least two and rising")
+        self._use_speed(speed)
+        interval = (times[-1] - times[0]) / (len(times) - 1)
+        uniform = bool(np.allclose(np.diff(times), interval, rtol=1e-9))
+        if uniform:
+            per_sample = max(1, int(np.ceil(interval / self.step - 1e-9)))
+            steps = per_sample * (len(times) - 1)
+        else:
+            steps = int(np.ceil((times[-1] - times[0]) / self.step))
+        reason = self._solve(state, steps, float(times[-1] - times[0]))
+        raw = self._stored_states()
+        if uniform:
+            raw = raw[::per_sample]
+            reached = times[: len(raw)]
+            samples = raw
+        else:
+            grid = np.linspace(times[0], times[-1], steps + 1)[: len(raw)]
+            reached = times[times <= grid[-1] + 1e-12] if len(grid) else times[:0]
+            samples = CubicSpline(grid, raw)(reached) if len(grid) > 1 else raw[: len(reached)]
+        finite = int(np.argmin([*np.all(np.isfinite(samples), axis=1), False]))
+        if reason is None and finite < len(times):
+            reason = "the motion is no longer finite"
+        if reason is not None:
+            raise SimulationError(
+                f"{self.name}: the motion at {speed:g} m/s ended after "
+                f"{reached[finite - 1] if finite else times[0]:.6g} s: {reason}",
+                reached[:finite],
+                samples[:finite],
+            )
+        return samples
+
+    def measures(self) -> dict[str, Any]:
+        record = super().measures()
+        record["versions"]["exudyn"] = exu.GetVersionString()
+        return {
+            **record,
+            "parameters": self.parameters,
+            "solver": str(self._solver_type).split(".")[-1],
+            "step": self.step,
+        }
+
+    def _add_sensors(self) -> None:
+        types = exu.OutputVariableType
+        self._sensors: list[tuple[int, int, int]] = []
+        nodes = self.mbs.systemData.NumberOfNodes()
+        for node in range(nodes):
+            kind = self.mbs.GetNode(node)["nodeType"]
+            if "Ground" in kind:
+                continue
+            sensors = [
+                self.mbs.AddSensor(
+                    SensorNode(
+                        nodeNumber=node,
+                        storeInternal=True,
+                        writeToFile=False,
+                        outputVariableType=what,
+                        name=f"state of node {node}: {what.name}",
+                    )
+                )
+                for what in (types.Coordinates, types.Coordinates_t)
+                if not (what == types.Coordinates_t and kind == "GenericODE1")
+            ]
+            self._sensors.append((node, sensors[0], sensors[-1]))
+
+    def _initialise_solver(self) -> None:
+        settings = _copy_settings(self._settings)
+        settings.solution.sensors.active = False
+        solver: Any = exu.MainSolverImplicitSecondOrder()
+        solver.InitializeSolver(self.mbs, settings)
+        self._solver = solver
+        self._order2 = solver.GetODE2size()
+        self._order1 = solver.GetODE1size()
+        if solver.GetAEsize():
+            raise AnalysisError(
+                f"{self.name}: the model has {solver.GetAEsize()} algebraic equations "
+                "(joints, constraints or Euler parameters), which this analysis does not treat; "
+                "replace joints by stiff springs and use NodeType.RotationRotationVector"
+            )
+        if self._data.DataSize():
+            raise AnalysisError(
+                f"{self.name}: the model has {self._data.DataSize()} data coordinates (friction "
+                "or contact memory); their state is hidden from the analysis: leave them out"
+            )
+
+    def _lay_out(self, spinning: dict[int, float], cyclic: dict[int, float]) -> None:
+        mbs, data = self.mbs, self._data
+        position_of = np.full(self._order2, CYCLIC, dtype=np.int64)
+        position_names: list[str] = []
+        velocity_names = [""] * self._order2
+        rotations: list[tuple[int, int, int]] = []
+        reference: list[Array] = []
+        first_order_names: list[str] = []
+        self._steady_velocities = list(cyclic.items())
+        nodes = [(node, np.array(data.GetNodeLTGODE2(node))) for node, *_ in self._sensors]
+        moving = sum(len(indices) > 0 for _, indices in nodes)
+        for node, indices in nodes:
+            description = mbs.GetNode(node)
+            prefix = f"{description['name'].removeprefix('Node:')}: " if moving > 1 else ""
+            rigid = description["nodeType"] == _ROTATION_VECTOR_NODE
+            if node in spinning and not rigid:
+                raise AnalysisError(
+                    f"{self.name}: node {node} ({description['nodeType']}) cannot spin; create "
+                    "the body with NodeType.RotationRotationVector"
+                )
+            for local, index in enumerate(indices):
+                if rigid:
+                    velocity_names[index] = prefix + _RIGID_BODY_VELOCITIES[local]
+                else:
+                    velocity_names[index] = f"{prefix}q{local}' [1/s]"
+                if rigid and local >= 3:
+                    position_of[index] = ROTATION
+                elif index not in cyclic:
+                    position_of[index] = len(position_names)
+                    label = _RIGID_BODY_POSITIONS[local] if rigid else f"q{local} [1]"
+                    position_names.append(prefix + label)
+            if rigid:
+                spins = node in spinning
+                rotations.append((int(indices[3]), len(position_names), int(spins)))
+                reference.append(np.array(description["referenceCoordinates"])[3:6])
+                labels = _RIGID_BODY_POSITIONS[3:5] if spins else _RIGID_BODY_POSITIONS[3:6]
+                position_names += [prefix + label for label in labels]
+                if spins and spinning[node]:
+                    self._steady_velocities.append((int(indices[4]), 1.0 / spinning[node]))
+            for index in data.GetNodeLTGODE1(node):
+                first_order_names.append(f"{description['name']}: state {index} [1]")
+        self._positions = len(position_names)
+        self._position_of = position_of
+        self._rotations = np.array(rotations, dtype=np.int64).reshape(-1, 3)
+        self._reference = np.array(reference, dtype=float).reshape(-1, 3)
+        self._automatic_names = (*position_names, *velocity_names, *first_order_names)
+        self._coordinates = np.zeros(self._order2)
+        self._velocities = np.zeros(self._order2)
+        self._first_order = np.zeros(self._order1)
+
+    def _check_mass_matrix(self) -> None:
+        """Keep the inverse of the mass matrix if it is the same at some distance."""
+        matrices = []
+        for factor in (0.0, 20.0, -37.0):
+            shifted = self.reduce(self._coordinates * 0.0, self._velocities * 0.0)
+            shifted[: self._positions] += factor * self.scales[: self._positions]
+            self._data.SetODE2Coordinates(self.expand(shifted)[0])
+            self._solver.ComputeMassMatrix(self.mbs)
+            matrices.append(np.array(self._solver.GetSystemMassMatrix()))
+        size = np.abs(matrices[0]).max()
+        self._constant_mass = all(
+            np.allclose(matrix, matrices[0], rtol=0.0, atol=1e-12 * size) for matrix in matrices[1:]
+        )
+        try:
+            self._inverse_mass = np.linalg.inv(matrices[0])
+        except np.linalg.LinAlgError:
+            massless = [
+                self.state_names[self._positions + index]
+                for index in np.flatnonzero(np.abs(matrices[0]).sum(axis=1) == 0.0)
+            ]
+            raise AnalysisError(
+                f"{self.name}: the mass matrix is singular (without mass: "
+                f"{', '.join(massless) or 'a combination of coordinates'}); give it a mass"
+            ) from None
+
+    def _use_speed(self, speed: float) -> None:
+        if speed != self._speed:
+            self._set_speed(self.mbs, float(speed))
+            self._speed = speed
+
+    def _solve(self, state: Array, steps: int, duration: float) -> str | None:
+        """Run Exudyn's solver from a state; the reason if it ended early."""
+        data, initial = self._data, exu.ConfigurationType.Initial
+        kept = [
+            data.GetODE2Coordinates(initial),
+            data.GetODE2Coordinates_t(initial),
+            data.GetODE1Coordinates(initial),
+        ]
+        coordinates, velocities = self.expand(state)
+        settings = self._settings
+        settings.timeIntegration.startTime = 0.0
+        settings.timeIntegration.endTime = duration
+        settings.timeIntegration.numberOfSteps = steps
+        settings.solution.sensors.active = True
+        # Half a step: every step is stored, whatever the rounding of the times.
+        settings.solution.sensors.writePeriod = 0.5 * duration / steps
+        try:
+            data.SetODE2Coordinates(coordinates, initial)
+            data.SetODE2Coordinates_t(velocities, initial)
+            if self._order1:
+                data.SetODE1Coordinates(np.asarray(state)[-self._order1 :], initial)
+            success = self.mbs.SolveDynamic(settings, solverType=self._solver_type, showHints=False)
+            return None if success else "Exudyn's solver did not converge"
+        except Exception as error:
+            return _reason(error)
+        finally:
+            data.SetODE2Coordinates(kept[0], initial)
+            data.SetODE2Coordinates_t(kept[1], initial)
+            if self._order1:
+                data.SetODE1Coordinates(kept[2], initial)
+            data.SetTime(0.0)
+
+    def _stored_states(self) -> Array:
+        """States (steps + 1, n) from the sensors of the last run."""
+        mbs, data = self.mbs, self._data
+        rows = len(mbs.GetSensorStoredData(self._sensors[0][1]))
+        coordinates = np.zeros((rows, self._order2))
+        velocities = np.zeros((rows, self._order2))
+        first_order = np.zeros((rows, self._order1))
+        for node, positions, rates in self._sensors:
+            stored = mbs.GetSensorStoredData(positions)[:, 1:]
+            indices = data.GetNodeLTGODE2(node)
+            if len(indices):
+                coordinates[:, indices] = stored
+                velocities[:, indices] = mbs.GetSensorStoredData(rates)[:, 1:]
+            else:
+                first_order[:, data.GetNodeLTGODE1(node)] = stored
+        states = np.empty((rows, len(self.state_names)))
+        for row in range(rows):
+            reduce_coordinates(
+                coordinates[row],
+                velocities[row],
+                first_order[row],
+                self._position_of,
+                self._rotations,
+                self._reference,
+                states[row],
+            )
+        return states
+
+
+def _as_mapping(entries: Sequence[int] | Mapping[int, float]) -> Mapping[int, float]:
+    """Entries with a number each, 0 where none is given."""
+    if isinstance(entries, Mapping):
+        return {int(key): float(value) for key, value in entries.items()}
+    return {int(key): 0.0 for key in entries}
+
+
+def _copy_settings(settings: exu.SimulationSettings | None) -> exu.SimulationSettings:
+    copy = exu.SimulationSettings()
+    if settings is not None:
+        copy.SetDictionary(settings.GetDictionary())
+    copy.solution.file.write = False
+    copy.timeIntegration.verboseMode = 0
+    return copy
+
+
+def _reason(error: Exception) -> str:
+    """The line of an exception that names the cause, without Exudyn's trace."""
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    return " ".join(lines[:2]) if lines else type(error).__name__
