@@ -406,7 +406,10 @@ class ExudynSystem(DynamicSystem):
             data.SetODE2Coordinates_t(velocities, initial)
             if self._order1:
                 data.SetODE1Coordinates(np.asarray(state)[-self._order1 :], initial)
-            success = self.mbs.SolveDynamic(settings, solverType=self._solver_type, showHints=False)
+            with _Quiet():
+                success = self.mbs.SolveDynamic(
+                    settings, solverType=self._solver_type, showHints=False
+                )
             return None if success else "Exudyn's solver did not converge"
         except Exception as error:
             return _reason(error)
@@ -444,6 +447,19 @@ class ExudynSystem(DynamicSystem):
                 states[row],
             )
         return states
+
+
+class _Quiet:
+    """Keeps Exudyn's messages off the console: a run that fails is reported by the exception."""
+
+    def __enter__(self) -> None:
+        config: Any = exu.config
+        self._kept = (config.suppressWarnings, config.printToConsole)
+        config.suppressWarnings, config.printToConsole = True, False
+
+    def __exit__(self, *_: object) -> None:
+        config: Any = exu.config
+        config.suppressWarnings, config.printToConsole = self._kept
 
 
 def _as_mapping(entries: Sequence[int] | Mapping[int, float]) -> Mapping[int, float]:

@@ -1,0 +1,278 @@
+"""The bogie of Cooperrider with the parameters of Kaas-Petersen, the classic of nonlinear hunting.
+
+Two conical wheelsets and a frame run under a car body that moves straight ahead; seven
+coordinates, all about the track frame (x forward, y left, z up, yaw positive to the left):
+
+    q1, q2   lateral displacement [m] and yaw [rad] of the leading wheelset
+    q3, q4   the same of the trailing wheelset
+    q5..q7   lateral displacement [m], yaw [rad] and roll [rad] of the frame
+
+The springs and dampers are linear, the creep forces saturate (cubic of Vermeulen and Johnson), and
+beyond a dead band the flange meets a linear spring without damping; the force there has a corner,
+which is kept.
+
+    m_w q1'' + A1 + 2 F_y1 + F_T(q1) = 0        I_w q2'' + A2 + 2 a F_x1 = 0   (3, 4 alike)
+    m_f q5'' - A1 - A3 + A5 = 0                 I_f q6'' - b (A1 - A3) - A2 - A4 + A6 = 0
+    I_fr q7'' - h1 (A1 + A3) - h2 A5 + A7 = 0
+
+    A1 = 2 k1 (q1 - q5 - b q6 - h1 q7)          A3 = 2 k1 (q3 - q5 + b q6 - h1 q7)
+    A2 = 2 k2 d1^2 (q2 - q6)                    A4 = 2 k2 d1^2 (q4 - q6)
+    A5 = 2 D2 (q5' - h2 q7') + 2 k4 (q5 - h2 q7)               A6 = k6 q6
+    A7 = 2 D1 d2^2 q7' + 2 k5 d2^2 q7 + 4 k3 d1^2 q7
+
+Creep, at speed V: xi_x = lambda q1/r0 + a q2'/V, xi_y = q1'/V - q2. Forces are those on the wheel
+with the sign turned (they stand on the left-hand side).
+
+Source: C. Kaas-Petersen, Chaos in a railway bogie, Acta Mechanica 61 (1986) 89-107. SI units.
+Published linear critical speed: 68.64 m/s at 4.00 Hz.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, fields
+from typing import Any, NamedTuple
+
+import exudyn as exu
+import numpy as np
+from exudyn.utilities import NodeGenericODE2, ObjectGenericODE2
+from numba import njit
+
+from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
+from exudyn_wheelset.errors import WheelsetError
+
+Array = np.ndarray
+
+STATE_NAMES = (
+    "q1 leading wheelset y [m]",
+    "q2 leading wheelset yaw [rad]",
+    "q3 trailing wheelset y [m]",
+    "q4 trailing wheelset yaw [rad]",
+    "q5 frame y [m]",
+    "q6 frame yaw [rad]",
+    "q7 frame roll [rad]",
+    "q1' leading wheelset [m/s]",
+    "q2' leading wheelset [rad/s]",
+    "q3' trailing wheelset [m/s]",
+    "q4' trailing wheelset [rad/s]",
+    "q5' frame [m/s]",
+    "q6' frame [rad/s]",
+    "q7' frame roll [rad/s]",
+)
+# A few millimetres and milliradians at about 4 Hz (25 rad/s).
+SCALES = np.array([1e-3] * 7 + [2.5e-2] * 7)
+
+# Kalker's coefficients of the source divide the creepages.
+LONGITUDINAL_CREEP_FACTOR = 0.60252
+LATERAL_CREEP_FACTOR = 0.54219
+
+
+@dataclass(frozen=True)
+class CooperriderBogie:
+    """Parameters of the bogie; the defaults are those of Kaas-Petersen.
+
+    Each stiffness, damping and creep parameter counts one side, as in the source. Raises
+    WheelsetError for a parameter that is not a finite number of the right sign.
+    """
+
+    wheelset_mass: float = 1022.0  # m_w [kg]
+    wheelset_yaw_inertia: float = 678.0  # I_w [kg m2]
+    frame_mass: float = 2918.0  # m_f [kg]
+    frame_yaw_inertia: float = 6780.0  # I_f [kg m2]
+    frame_roll_inertia: float = 6780.0  # I_fr [kg m2]
+    primary_lateral_stiffness: float = 1.823e6  # k1 [N/m]
+    primary_longitudinal_stiffness: float = 3.646e6  # k2 [N/m]
+    primary_vertical_stiffness: float = 3.646e6  # k3 [N/m]
+    secondary_lateral_stiffness: float = 0.1823e6  # k4 [N/m]
+    secondary_vertical_stiffness: float = 0.3333e6  # k5 [N/m]
+    secondary_yaw_stiffness: float = 2.710e6  # k6 [N m/rad]
+    secondary_vertical_damping: float = 20.0e3  # D1 [N s/m]
+    secondary_lateral_damping: float = 29.2e3  # D2 [N s/m]
+    contact_half_distance: float = 0.7163  # a [m]
+    half_wheelbase: float = 1.074  # b [m]
+    primary_height: float = 0.0762  # h1 [m], wheelset centres below the frame's centre
+    secondary_height: float = 0.6584  # h2 [m], secondary springs above the frame's centre
+    primary_half_distance: float = 0.620  # d1 [m]
+    secondary_half_distance: float = 0.680  # d2 [m]
+    conicity: float = 0.05  # lambda [1]
+    wheel_radius: float = 0.4572  # r0 [m]
+    flange_stiffness: float = 14.60e6  # k0 [N/m]
+    flange_clearance: float = 9.1e-3  # dead band on either side [m]
+    friction_force: float = 10.0e3  # mu N [N] a wheel
+    creep_stiffness: float = 6.563e6  # G pi a_e b_e [N] a wheel
+
+    def __post_init__(self) -> None:
+        may_vanish = ("damping", "stiffness", "height", "conicity", "clearance")
+        for field in fields(self):
+            value = getattr(self, field.name)
+            zero_allowed = any(word in field.name for word in may_vanish)
+            zero_allowed = zero_allowed and field.name != "creep_stiffness"
+            if not math.isfinite(value) or value < 0.0 or (value == 0.0 and not zero_allowed):
+                bound = "zero or positive" if zero_allowed else "positive"
+                raise WheelsetError(
+                    f"CooperriderBogie: {field.name} = {value} must be a {bound} number in SI units"
+                )
+
+    def mass_matrix(self) -> Array:
+        """Mass matrix (7, 7), diagonal [kg, kg m2]."""
+        wheelset = [self.wheelset_mass, self.wheelset_yaw_inertia]
+        frame = [self.frame_mass, self.frame_yaw_inertia, self.frame_roll_inertia]
+        return np.diag([*wheelset, *wheelset, *frame])
+
+    def stiffness_matrix(self) -> Array:
+        """Stiffness matrix (7, 7) of the suspension, without creep and flange [N/m, N m/rad].
+
+        The sum of k g g^T over the springs, g the elongation by each coordinate.
+        """
+        b, h1, h2 = self.half_wheelbase, self.primary_height, self.secondary_height
+        d1, d2 = self.primary_half_distance, self.secondary_half_distance
+        springs: list[tuple[float, list[float]]] = [
+            (2.0 * self.primary_lateral_stiffness, [1, 0, 0, 0, -1, -b, -h1]),
+            (2.0 * self.primary_lateral_stiffness, [0, 0, 1, 0, -1, b, -h1]),
+            (2.0 * self.primary_longitudinal_stiffness * d1**2, [0, 1, 0, 0, 0, -1, 0]),
+            (2.0 * self.primary_longitudinal_stiffness * d1**2, [0, 0, 0, 1, 0, -1, 0]),
+            (2.0 * self.secondary_lateral_stiffness, [0, 0, 0, 0, 1, 0, -h2]),
+            (self.secondary_yaw_stiffness, [0, 0, 0, 0, 0, 1, 0]),
+            (2.0 * self.secondary_vertical_stiffness * d2**2, [0, 0, 0, 0, 0, 0, 1]),
+            (4.0 * self.primary_vertical_stiffness * d1**2, [0, 0, 0, 0, 0, 0, 1]),
+        ]
+        return _sum_of_springs(springs)
+
+    def damping_matrix(self) -> Array:
+        """Damping matrix (7, 7) of the suspension, without creep [N s/m, N m s/rad]."""
+        h2, d2 = self.secondary_height, self.secondary_half_distance
+        dampers: list[tuple[float, list[float]]] = [
+            (2.0 * self.secondary_lateral_damping, [0, 0, 0, 0, 1, 0, -h2]),
+            (2.0 * self.secondary_vertical_damping * d2**2, [0, 0, 0, 0, 0, 0, 1]),
+        ]
+        return _sum_of_springs(dampers)
+
+    def contact_parameters(self) -> Array:
+        """Parameters (6,) of `contact_forces`: lambda/r0, a, mu N, G pi a_e b_e, k0, clearance."""
+        return np.array(
+            [
+                self.conicity / self.wheel_radius,
+                self.contact_half_distance,
+                self.friction_force,
+                self.creep_stiffness,
+                self.flange_stiffness,
+                self.flange_clearance,
+            ]
+        )
+
+
+def _sum_of_springs(springs: list[tuple[float, list[float]]]) -> Array:
+    matrix = np.zeros((7, 7))
+    for stiffness, elongation in springs:
+        direction = np.array(elongation, dtype=float)
+        matrix += stiffness * np.outer(direction, direction)
+    return matrix
+
+
+@njit(cache=True, error_model="numpy")
+def contact_forces(
+    coordinates: Array, velocities: Array, speed: float, parameters: Array, forces: Array
+) -> None:
+    """Generalised forces (7,) of creep and flanges on the bogie, written in place [N, N m].
+
+    coordinates, velocities (7,) as in the module's header; speed V [m/s]; parameters from
+    `CooperriderBogie.contact_parameters`.
+    """
+    rolling, arm, friction_force, creep_stiffness, flange, clearance = parameters
+    forces[:] = 0.0
+    for first in (0, 2):
+        lateral, yaw = coordinates[first], coordinates[first + 1]
+        creep_x = (
+            rolling * lateral + arm * velocities[first + 1] / speed
+        ) / LONGITUDINAL_CREEP_FACTOR
+        creep_y = (velocities[first] / speed - yaw) / LATERAL_CREEP_FACTOR
+        creep = math.hypot(creep_x, creep_y)
+        saturation = creep_stiffness * creep / friction_force
+        if saturation < 3.0:
+            # Force over creep, finite at zero creep.
+            ratio = creep_stiffness * (1.0 - saturation / 3.0 + saturation * saturation / 27.0)
+        else:
+            ratio = friction_force / creep
+        forces[first] = -2.0 * ratio * creep_y
+        forces[first + 1] = -2.0 * arm * ratio * creep_x
+        if lateral > clearance:
+            forces[first] -= flange * (lateral - clearance)
+        elif lateral < -clearance:
+            forces[first] -= flange * (lateral + clearance)
+
+
+class BogieItems(NamedTuple):
+    """Item numbers of a Cooperrider bogie in an Exudyn system."""
+
+    node: int
+    suspension: int
+
+
+def create_cooperrider_bogie(
+    mbs: exu.MainSystem,
+    bogie: CooperriderBogie | None = None,
+    *,
+    speed: float | None = None,
+    initial_coordinates: Sequence[float] | Array | None = None,
+    name: str = "",
+) -> BogieItems:
+    """Add the bogie to an Exudyn system and return its item numbers.
+
+    The seven coordinates are one generic node; the suspension is an ObjectGenericODE2 whose user
+    function adds creep and flange forces at the forward speed `mbs.variables["speed"]` [m/s],
+    which is read at every evaluation and set here if `speed` is given. Several bogies may be
+    added; a `name`, if given, must be a new one in the system.
+    """
+    bogie = bogie or CooperriderBogie()
+    parameters, forces = bogie.contact_parameters(), np.zeros(7)
+    variables = mbs.variables
+    if speed is not None:
+        variables["speed"] = float(speed)
+
+    def contact(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> Array:
+        contact_forces(np.asarray(q), np.asarray(q_t), variables["speed"], parameters, forces)
+        return forces
+
+    node = mbs.AddNode(
+        NodeGenericODE2(
+            referenceCoordinates=[0.0] * 7,
+            initialCoordinates=list(
+                np.zeros(7) if initial_coordinates is None else initial_coordinates
+            ),
+            initialCoordinates_t=[0.0] * 7,
+            numberOfODE2Coordinates=7,
+            name=name,
+        )
+    )
+    force: Any = contact
+    suspension = mbs.AddObject(
+        ObjectGenericODE2(
+            nodeNumbers=[node],
+            massMatrix=bogie.mass_matrix(),
+            stiffnessMatrix=bogie.stiffness_matrix(),
+            dampingMatrix=bogie.damping_matrix(),
+            forceUserFunction=force,
+            name=f"{name}: suspension, creep and flanges" if name else "",
+        )
+    )
+    return BogieItems(node=int(node), suspension=int(suspension))
+
+
+def cooperrider_system(bogie: CooperriderBogie | None = None, **options: Any) -> ExudynSystem:
+    """The bogie alone in an Exudyn system, ready for the analyses; `options` go to ExudynSystem."""
+    bogie = bogie or CooperriderBogie()
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    create_cooperrider_bogie(mbs, bogie, speed=1.0)
+
+    def set_speed(mbs: exu.MainSystem, speed: float) -> None:
+        mbs.variables["speed"] = speed
+
+    defaults: dict[str, Any] = {
+        "name": "Cooperrider bogie",
+        "state_names": STATE_NAMES,
+        "scales": SCALES,
+        "parameters": asdict(bogie),
+    }
+    return ExudynSystem(mbs, container, set_speed=set_speed, **{**defaults, **options})
