@@ -27,7 +27,7 @@ from math import comb
 import numpy as np
 
 from exudyn_wheelset.analyses.system import DIFFERENCE_STEP, Array, DynamicSystem
-from exudyn_wheelset.errors import AnalysisError, ContactError
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
 
 DEGREE = 4
 INTERVALS = 30
@@ -139,7 +139,7 @@ def orbit_from_samples(
     return Orbit(np.linspace(0.0, 1.0, intervals + 1), states, float(period), float(speed))
 
 
-def balanced_mesh(orbit: Orbit, scales: Array, weight: float = 0.7) -> Array:
+def balanced_mesh(orbit: Orbit, scales: Array, weight: float = 0.8) -> Array:
     """Mesh (N + 1,) on which each interval carries an equal share of the local error.
 
     The error density is |d^(m+1)x/ds^(m+1)|^(1/(m+1)), its derivative taken from the jumps of the
@@ -333,7 +333,7 @@ class Collocation:
         states = self._gauss_states(orbit)
         try:
             jacobians = np.asarray(self.system.jacobians(states, orbit.speed))
-        except ContactError as error:
+        except WheelsetError as error:
             raise OrbitError(f"at {orbit.speed:.4f} m/s: {error}", contact_lost=True) from error
         self.jacobians += len(states)
         if not np.all(np.isfinite(jacobians)):
@@ -399,7 +399,7 @@ class Collocation:
         self.evaluations += len(states)
         try:
             rates = np.asarray(self.system.derivatives(states, speed)) / self.scales
-        except ContactError as error:
+        except WheelsetError as error:
             raise OrbitError(f"at {speed:.4f} m/s: {error}", contact_lost=True) from error
         if not np.all(np.isfinite(rates)):
             raise OrbitError(
@@ -427,8 +427,8 @@ def solve_orbit(
     condensed: Condensed | None = None,
     reference: Orbit | None = None,
     tolerance: float = 1e-9,
-    iterations: int = 14,
-    contraction: float = 0.25,
+    iterations: int = 20,
+    contraction: float = 0.5,
 ) -> Solution:
     """Periodic orbit near `guess` on which `row` of (orbit - guess) has the value `target`.
 

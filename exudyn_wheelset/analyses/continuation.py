@@ -264,11 +264,11 @@ class _Follower:
         condensed = equations.condense(orbit)
         new = self._base(orbit, condensed, equations.inner(orbit.mesh, tangent))
         cosine = equations.inner(orbit.mesh, tangent)(*_parts(new.tangent))
-        if cosine < np.cos(settings.turn):
-            # At a corner of the branch (a contact that sets in) every step turns by as much: the
-            # smallest ones are let through.
-            if self.step > 30.0 * settings.smallest_step * self._largest_step():
-                raise OrbitError("the branch turns more sharply than a step may")
+        # At a corner of the branch (a contact that sets in) every step turns by as much: the
+        # smallest ones are let through.
+        large = self.step > 30.0 * settings.smallest_step * self._largest_step()
+        if large and cosine < np.cos(settings.turn):
+            raise OrbitError("the branch turns more sharply than a step may")
         if new.tangent.speed * tangent.speed < 0.0:
             self._locate_fold(base, new, length)
         self.base = new

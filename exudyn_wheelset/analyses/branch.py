@@ -1,0 +1,304 @@
+"""A branch of limit cycles as data: arrays over the points, marked speeds, file and plot.
+
+The record kept with it (system, parameters, versions, method, settings, cost) and the orbits
+themselves go into the file, so that a diagram can be drawn again, and a branch continued, from
+the file alone. Speeds in m/s, periods in s, amplitudes are half of peak to peak in m or rad.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from exudyn_wheelset.analyses.collocation import Orbit
+from exudyn_wheelset.analyses.records import read_record, write_record
+from exudyn_wheelset.analyses.system import Array
+from exudyn_wheelset.errors import AnalysisError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+KIND = "branch of limit cycles"
+
+
+class NamedColumns(np.ndarray):
+    """An array (points, columns) whose columns are also reached by name: table["y [m]"].
+
+    A name may be given without its unit as long as it is the only one that begins so.
+    """
+
+    names: tuple[str, ...]
+
+    def __new__(cls, values: Array, names: Sequence[str]) -> NamedColumns:
+        table = np.array(values, dtype=float).view(cls)
+        table.names = tuple(names)
+        return table
+
+    def __array_finalize__(self, source: Any) -> None:
+        self.names = getattr(source, "names", ())
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return np.asarray(self)[:, column_index(self.names, key)]
+        return np.asarray(self)[key]
+
+    def keys(self) -> tuple[str, ...]:
+        return self.names
+
+
+def column_index(names: Sequence[str], name: str) -> int:
+    """Position of a name, with or without its unit; raises AnalysisError if not exactly one."""
+    if name in names:
+        return list(names).index(name)
+    bare = [index for index, known in enumerate(names) if known.split(" [")[0] == name]
+    if len(bare) != 1:
+        raise AnalysisError(f"{name!r} is not one of {', '.join(names)}")
+    return bare[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Fold(float):
+    """A speed at which a branch of limit cycles turns back; a float, the speed itself [m/s].
+
+    amplitude   half of peak to peak by displacement name [m or rad]
+    period      [s]
+    index       of the point in the branch
+    side        "lowest" (no cycle of the branch just below this speed) or "highest" (none above)
+    """
+
+    speed: float
+    amplitude: dict[str, float]
+    period: float
+    index: int
+    side: Literal["lowest", "highest"]
+
+    def __new__(cls, speed: float, *_: Any, **__: Any) -> Fold:
+        return super().__new__(cls, speed)
+
+
+@dataclass(frozen=True, eq=False)
+class StabilityChange(float):
+    """A speed between folds at which stability changes; a float, the speed itself [m/s].
+
+    kind   "branch point" (a real multiplier passes +1: symmetry is lost or another branch
+           crosses), "period doubling" (-1) or "torus" (a complex pair: modulated hunting)
+    index  of the point of the branch after the change
+    """
+
+    speed: float
+    kind: Literal["branch point", "period doubling", "torus"]
+    index: int
+
+    def __new__(cls, speed: float, *_: Any, **__: Any) -> StabilityChange:
+        return super().__new__(cls, speed)
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """Limit cycles in the order in which they lie on their branch.
+
+    speed           (points,) [m/s]
+    period          (points,) [s]
+    amplitude       (points, displacements) half of peak to peak [m or rad]; columns also by name
+    stable          (points,) whether all multipliers but the trivial one are inside the unit circle
+    multipliers     (points, n - 1) Floquet multipliers by falling size, the trivial one left out
+    trivial_error   (points,) distance of the trivial multiplier from 1: an accuracy check
+    folds           where the branch turns back, in the order of the points
+    changes         other changes of stability
+    hopf            (speed [m/s], frequency [Hz]) of the Hopf point it starts from, or None
+    reason          why the branch ends; with a start inside it, both ends
+    method          "continuation"
+    mesh, states    (points, N + 1), (points, N m + 1, n): the orbits themselves
+    record          system, parameters, versions, settings, cost
+    """
+
+    speed: Array
+    period: Array
+    amplitude: NamedColumns
+    stable: Array
+    multipliers: Array
+    trivial_error: Array
+    folds: list[Fold]
+    changes: list[StabilityChange]
+    hopf: tuple[float, float] | None
+    reason: str
+    mesh: Array
+    states: Array
+    method: str = "continuation"
+    record: dict[str, Any] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.speed)
+
+    def orbit(self, index: int) -> Orbit:
+        """The motion at a point of the branch."""
+        return Orbit(
+            self.mesh[index], self.states[index], float(self.period[index]), self.speed[index]
+        )
+
+    def amplitudes_at(self, speed: float, name: str, stable: bool | None = None) -> Array:
+        """Amplitudes [m or rad] of a displacement where the branch passes a speed [m/s].
+
+        Interpolated by the cubic through the four nearest points between two folds. `stable`
+        keeps one kind of them. Empty if the branch does not pass the speed.
+        """
+        column = self.amplitude[name]
+        found: list[float] = []
+        for first, last in self._runs():
+            for index in range(first, last):
+                low, high = sorted(self.speed[index : index + 2])
+                if not low <= speed <= high or (speed == low and index > first and found):
+                    continue
+                if stable is not None and stable != self._steady(index):
+                    continue
+                start = min(max(first, index - 1), max(first, last - 3))
+                chosen = slice(start, min(start + 4, last + 1))
+                found.append(_lagrange(self.speed[chosen], column[chosen], speed))
+        return np.array(found)
+
+    def lowest_stable(self) -> tuple[float, str]:
+        """Lowest speed [m/s] at which a cycle of the branch is stable, and what bounds it there.
+
+        Raises AnalysisError if no cycle of the branch is stable.
+        """
+        if not np.any(self.stable):
+            raise AnalysisError(f"no limit cycle of the branch is stable; {self.reason}")
+        candidates = [(float(self.speed[i]), i) for i in np.flatnonzero(self.stable)]
+        speed, index = min(candidates)
+        what = "the end of the branch" if index in (0, len(self) - 1) else "a point of the branch"
+        if index == 0 and self.hopf is not None:
+            speed, what = min(speed, self.hopf[0]), "the Hopf point, which is supercritical"
+        for fold in self.folds:
+            beside = self.stable[max(0, fold.index - 1) : fold.index + 2]
+            if fold.side == "lowest" and np.any(beside) and fold <= speed:
+                speed, what = float(fold), "the fold of the limit cycle"
+        for change in self.changes:
+            if change < speed:
+                speed, what = float(change), f"a {change.kind} of the limit cycle"
+        return speed, what
+
+    def save(self, path: str | Path) -> Path:
+        """Write the branch with its record to one .npz file, atomically; returns the path."""
+        record = {
+            **self.record,
+            "kind": KIND,
+            "method": self.method,
+            "reason": self.reason,
+            "displacements": list(self.amplitude.names),
+            "hopf": self.hopf,
+            "folds": [
+                [fold.speed, fold.amplitude, fold.period, fold.index, fold.side]
+                for fold in self.folds
+            ],
+            "changes": [[change.speed, change.kind, change.index] for change in self.changes],
+        }
+        arrays = {name: np.asarray(getattr(self, name)) for name in _ARRAYS}
+        return write_record(path, arrays, record)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Branch:
+        """The branch of a file; raises AnalysisError if it does not hold one."""
+        arrays, record = read_record(path, KIND)
+        fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
+        fields["amplitude"] = NamedColumns(fields["amplitude"], record["displacements"])
+        return cls(
+            **fields,
+            folds=[Fold(*entry) for entry in record["folds"]],
+            changes=[StabilityChange(*entry) for entry in record["changes"]],
+            hopf=tuple(record["hopf"]) if record["hopf"] else None,
+            reason=record["reason"],
+            method=record["method"],
+            record=record,
+        )
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        name: str | None = None,
+        factor: float = 1.0,
+        colour: str = "C0",
+        label: str | None = None,
+    ) -> Axes:
+        """Draw amplitude over speed: stable solid, unstable dashed, Hopf point and folds marked.
+
+        `name` is the displacement (default the first), `factor` turns its unit into the plotted
+        one (1e3 for mm). Returns the axes.
+        """
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots()[1]
+        name = name or self.amplitude.names[0]
+        speed, values = self.speed, factor * self.amplitude[name]
+        steady = [self._steady(index) for index in range(len(self) - 1)]
+        if self.hopf is not None:
+            speed, values = np.append(self.hopf[0], speed), np.append(0.0, values)
+            steady.insert(0, bool(self.stable[0]))
+        shown = False
+        first = 0
+        for index in range(1, len(steady) + 1):
+            if index < len(steady) and steady[index] == steady[first]:
+                continue
+            piece = slice(first, index + 1)
+            style = "-" if steady[first] else "--"
+            text = label if steady[first] and not shown else None
+            shown = shown or steady[first]
+            ax.plot(speed[piece], values[piece], style, color=colour, label=text)
+            first = index
+        if self.hopf is not None:
+            ax.plot(self.hopf[0], 0.0, "o", color=colour)
+            self._note(ax, f"Hopf {self.hopf[0]:.2f}", self.hopf[0], 0.0)
+        for fold in self.folds:
+            height = factor * self.amplitude[name][fold.index]
+            ax.plot(fold.speed, height, "s", color=colour)
+            self._note(ax, f"fold {fold.speed:.2f}", fold.speed, height)
+        for change in self.changes:
+            height = factor * self.amplitude[name][change.index]
+            ax.plot(change.speed, height, "^", color=colour, fillstyle="none")
+            self._note(ax, f"{change.kind} {change.speed:.2f}", change.speed, height)
+        ax.set_xlabel("forward speed [m/s]")
+        ax.set_ylabel(f"half of peak to peak: {name}" + (f" x {factor:g}" if factor != 1 else ""))
+        return ax
+
+    @staticmethod
+    def _note(ax: Axes, text: str, speed: float, height: float) -> None:
+        ax.annotate(text, (speed, height), xytext=(4, 6), textcoords="offset points", fontsize=8)
+
+    def _runs(self) -> list[tuple[int, int]]:
+        """First and last point of each piece between folds."""
+        ends = [0, *(fold.index for fold in self.folds), len(self) - 1]
+        return [(a, b) for a, b in pairwise(ends) if b > a]
+
+    def _steady(self, index: int) -> bool:
+        """Whether the piece from a point to the next is stable; a fold goes with its neighbour."""
+        folds = {fold.index for fold in self.folds}
+        if index in folds:
+            return bool(self.stable[index + 1])
+        if index + 1 in folds:
+            return bool(self.stable[index])
+        return bool(self.stable[index] and self.stable[index + 1])
+
+
+_ARRAYS = (
+    "speed",
+    "period",
+    "amplitude",
+    "stable",
+    "multipliers",
+    "trivial_error",
+    "mesh",
+    "states",
+)
+
+
+def _lagrange(nodes: Array, values: Array, where: float) -> float:
+    total = 0.0
+    for i, node in enumerate(nodes):
+        others = np.delete(nodes, i)
+        total += values[i] * np.prod((where - others) / (node - others))
+    return float(total)

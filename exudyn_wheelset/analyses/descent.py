@@ -1,0 +1,324 @@
+"""Quasi-static descent: the lowest speed at which hunting survives, by simulation alone.
+
+From a speed above the linear critical one, where the vehicle hunts, the speed falls in small
+steps. Each run starts from the last state of the one before and is simulated until its peaks have
+settled (see `settling`). The first speed at which the motion dies out lies beyond the jump, the
+fold of the limit cycle; the interval between it and the last speed that hunted is bisected, each
+time from the last hunting state. It is the way a test on a roller rig finds the same number, and
+independent of collocation and continuation.
+
+Only stable motion is seen, and only the one that the first state leads to. Just below the fold a
+motion lingers before it dies out, so the criterion of settling sets what can be resolved.
+
+Speeds in m/s; amplitudes are half of peak to peak in m or rad.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from exudyn_wheelset.analyses.branch import NamedColumns
+from exudyn_wheelset.analyses.linear import linearise
+from exudyn_wheelset.analyses.records import describe, read_record, write_record
+from exudyn_wheelset.analyses.settling import Motion, Settling, typical_period, watched_index
+from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.errors import AnalysisError
+
+KIND = "quasi-static descent"
+
+
+@dataclass(frozen=True, eq=False)
+class Descent:
+    """Stable hunting motion over falling speed, down to the jump.
+
+    speeds      (k,) speeds that hunted, in the order they were run [m/s]
+    amplitude   (k, displacements) half of peak to peak [m or rad]; columns also by name
+    period      (k,) [s]
+    settled     (k,) whether the peaks settled; if not, the run was ended after all its cycles
+    states      (k, n) last state at each speed
+    jumped      highest speed at which hunting died out [m/s]; nan while none has
+    time        simulated in total [s]
+    reason      why it ended
+    method      "descent"
+    record      system, parameters, versions, settings
+    """
+
+    speeds: Array
+    amplitude: NamedColumns
+    period: Array
+    settled: Array
+    states: Array
+    jumped: float
+    time: float
+    reason: str
+    method: str = "descent"
+    record: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def bracket(self) -> tuple[float, float]:
+        """Speeds [m/s] below and above the jump: the highest that died, the lowest that hunted."""
+        return self.jumped, float(np.min(self.speeds))
+
+    @property
+    def speed(self) -> float:
+        """Speed of the jump [m/s], the middle of the bracket; nan if it was not reached."""
+        return 0.5 * sum(self.bracket)
+
+    def save(self, path: str | Path) -> Path:
+        """Write to one .npz file, atomically; returns the path."""
+        record = {
+            **self.record,
+            "kind": KIND,
+            "method": self.method,
+            "reason": self.reason,
+            "jumped": None if np.isnan(self.jumped) else self.jumped,
+            "time": self.time,
+            "displacements": list(self.amplitude.names),
+        }
+        arrays = {name: np.asarray(getattr(self, name)) for name in _ARRAYS}
+        return write_record(path, arrays, record)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Descent:
+        """The descent of a file; raises AnalysisError if it does not hold one."""
+        arrays, record = read_record(path, KIND)
+        fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
+        fields["amplitude"] = NamedColumns(fields["amplitude"], record["displacements"])
+        jumped = record["jumped"]
+        return cls(
+            **fields,
+            jumped=np.nan if jumped is None else float(jumped),
+            time=record["time"],
+            reason=record["reason"],
+            record=record,
+        )
+
+    def plot(self, ax: Any, name: str | None = None, factor: float = 1.0, **style: Any) -> Any:
+        """Draw the amplitudes as points and the jump as a thin line; returns the axes."""
+        values = factor * self.amplitude[name or self.amplitude.names[0]]
+        style = {"marker": "v", "linestyle": "none", "markersize": 4, "label": "descent", **style}
+        ax.plot(self.speeds, values, **style)
+        if not np.isnan(self.jumped):
+            ax.axvline(self.speed, color="0.6", linewidth=0.8)
+        return ax
+
+
+_ARRAYS = ("speeds", "amplitude", "period", "settled", "states")
+
+
+def quasi_static_descent(
+    vehicle: Any,
+    high: float,
+    low: float,
+    *,
+    step: float = 0.5,
+    tolerance: float = 0.05,
+    state: Sequence[float] | Array | None = None,
+    disturbance: float = 2.0,
+    watch: str | int | None = None,
+    settling: Settling | None = None,
+    state_file: str | Path | None = None,
+    progress: bool = False,
+) -> Descent:
+    """Follow hunting down from `high` to its jump, not below `low` [m/s].
+
+    step         of the speed before the jump [m/s]
+    tolerance    width of the interval that holds the jump in the end [m/s]
+    state        (n,) to start from; else the equilibrium at `high` and the least damped mode,
+                 `disturbance` times its scale large
+    watch        displacement whose peaks decide (name or index; default the first lateral one)
+    settling     criterion on the peaks
+    state_file   kept up to date after each finished speed; if it exists, the run goes on from it
+
+    A keyboard interrupt ends the run with what is finished. Raises AnalysisError if the vehicle
+    does not hunt at `high`, or if the state file belongs to another run.
+    """
+    system = as_system(vehicle)
+    if not (low < high and step > 0.0 and tolerance > 0.0):
+        raise AnalysisError(
+            f"high = {high:g} must lie above low = {low:g} m/s, step = {step:g} and tolerance = "
+            f"{tolerance:g} m/s must be positive"
+        )
+    settling = settling or Settling()
+    run = _Run(system, watched_index(system, watch), settling, high, low, step, tolerance)
+    if state_file is not None and Path(state_file).with_suffix(".npz").exists():
+        run.resume(Path(state_file).with_suffix(".npz"))
+    with tqdm(disable=not progress, unit="speed", desc="descent", initial=len(run)) as bar:
+        try:
+            if not len(run):
+                run.begin(state, disturbance)
+                run.write(state_file)
+            while not run.reason:
+                bar.set_postfix_str(run.progress())
+                run.advance()
+                run.write(state_file)
+                bar.update()
+        except KeyboardInterrupt:
+            if not len(run):
+                raise
+            run.reason = "interrupted by the user; run again with the same state file to go on"
+    return run.result()
+
+
+class _Run:
+    def __init__(
+        self,
+        system: DynamicSystem,
+        watch: int,
+        settling: Settling,
+        high: float,
+        low: float,
+        step: float,
+        tolerance: float,
+    ) -> None:
+        self.system, self.watch, self.settling = system, watch, settling
+        self.high, self.low, self.step, self.tolerance = high, low, step, tolerance
+        self.settings = {
+            **asdict(settling),
+            "watch": system.state_names[watch],
+            "high": high,
+            "low": low,
+            "step": step,
+            "descent_tolerance": tolerance,
+        }
+        self.record = describe(system, "descent", self.settings)
+        self.speeds: list[float] = []
+        self.amplitudes: list[Array] = []
+        self.periods: list[float] = []
+        self.settled: list[bool] = []
+        self.states: list[Array] = []
+        self.jumped = np.nan
+        self.time = 0.0
+        self.reason = ""
+
+    def __len__(self) -> int:
+        return len(self.speeds)
+
+    def begin(self, state: Sequence[float] | Array | None, disturbance: float) -> None:
+        system, speed = self.system, self.high
+        if state is None:
+            state = mode_disturbance(system, speed, disturbance)
+        motion = Motion(
+            system,
+            speed,
+            np.asarray(state, dtype=float),
+            typical_period(system, speed),
+            self.watch,
+            self.settling,
+        )
+        verdict = motion.decide()
+        if verdict in ("dying out", "lost contact"):
+            raise AnalysisError(
+                f"{system.name} does not hunt at {speed:g} m/s: the motion is {verdict} after "
+                f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; begin at a "
+                "higher speed or with a larger disturbance"
+            )
+        self._keep(speed, motion, verdict == "settled")
+
+    def advance(self) -> None:
+        """Run the next speed, of the descent or of the bisection."""
+        last = int(np.argmin(self.speeds))
+        above = self.speeds[last]
+        speed = above - self.step if np.isnan(self.jumped) else 0.5 * (above + self.jumped)
+        speed = max(speed, self.low)
+        motion = Motion(
+            self.system, speed, self.states[last], self.periods[last], self.watch, self.settling
+        )
+        verdict = motion.decide()
+        if verdict == "lost contact":
+            self.time += motion.time
+            self.reason = f"lost contact at {speed:.4f} m/s: {motion.failure}"
+            return
+        if verdict == "dying out":
+            self.time += motion.time
+            self.jumped = speed
+        else:
+            self._keep(speed, motion, verdict == "settled")
+        self._finish()
+
+    def progress(self) -> str:
+        if np.isnan(self.jumped):
+            return f"hunting at {min(self.speeds):.2f} m/s"
+        return f"jump between {self.jumped:.3f} and {min(self.speeds):.3f} m/s"
+
+    def result(self) -> Descent:
+        names = [self.system.state_names[index] for index in self.system.displacement_indices]
+        return Descent(
+            speeds=np.array(self.speeds),
+            amplitude=NamedColumns(np.array(self.amplitudes), names),
+            period=np.array(self.periods),
+            settled=np.array(self.settled, dtype=bool),
+            states=np.array(self.states),
+            jumped=float(self.jumped),
+            time=self.time,
+            reason=self.reason,
+            record=self.record,
+        )
+
+    def write(self, path: str | Path | None) -> None:
+        if path is not None:
+            self.result().save(Path(path).with_suffix(".npz"))
+
+    def resume(self, path: Path) -> None:
+        """Take over what a file holds; a run to a finer tolerance may go on from a coarser one."""
+        kept = Descent.load(path)
+        known = {**kept.record.get("settings", {}), "descent_tolerance": self.tolerance}
+        if kept.record.get("system") != self.system.name or known != _as_stored(self.settings):
+            raise AnalysisError(
+                f"{path}: belongs to {kept.record.get('system')!r} with other settings; give "
+                "another state file or remove it"
+            )
+        parameters = _as_stored(self.record).get("parameters")
+        if kept.record.get("parameters") != parameters:
+            raise AnalysisError(
+                f"{path}: belongs to a vehicle with other parameters; give another state file"
+            )
+        self.speeds = kept.speeds.tolist()
+        self.amplitudes = list(np.asarray(kept.amplitude))
+        self.periods = kept.period.tolist()
+        self.settled = kept.settled.tolist()
+        self.states = list(kept.states)
+        self.jumped, self.time = kept.jumped, kept.time
+        self._finish()
+
+    def _keep(self, speed: float, motion: Motion, settled: bool) -> None:
+        self.speeds.append(speed)
+        self.amplitudes.append(motion.amplitudes)
+        self.periods.append(motion.period)
+        self.settled.append(settled)
+        self.states.append(motion.state)
+        self.time += motion.time
+
+    def _finish(self) -> None:
+        lowest = min(self.speeds)
+        if np.isnan(self.jumped):
+            if lowest <= self.low:
+                self.reason = f"still hunting at the lower end, {self.low:g} m/s"
+        elif lowest - self.jumped <= self.tolerance * (1.0 + 1e-9):
+            self.reason = f"jump found between {self.jumped:.4f} and {lowest:.4f} m/s"
+
+
+def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:
+    """State (n,): equilibrium plus the least damped oscillatory mode, `size` times its scale."""
+    linear = linearise(system, speed)
+    pairs = np.flatnonzero(linear.eigenvalues.imag > 1e-6 * np.abs(linear.eigenvalues).max())
+    if len(pairs) == 0:
+        raise AnalysisError(f"{system.name} does not oscillate at {speed:g} m/s; give a state")
+    mode = linear.eigenvectors[:, pairs[np.argmax(linear.eigenvalues[pairs].real)]]
+    displacements = list(system.displacement_indices)
+    relative = np.abs(mode / system.scales)[displacements]
+    leading = displacements[int(np.argmax(relative))]
+    mode = mode * (system.scales[leading] / mode[leading])
+    return linear.state + size * mode.real
+
+
+def _as_stored(values: Any) -> Any:
+    """Values as they come back from a file: tuples as lists, keys as text."""
+    return json.loads(json.dumps(values, default=str))

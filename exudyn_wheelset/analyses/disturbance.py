@@ -1,0 +1,278 @@
+"""Disturbance runs: how large must a one-off lateral disturbance be to set off hunting?
+
+Below the linear critical speed the straight run and the limit cycle may both be stable. At each
+speed the vehicle starts from its equilibrium with one displacement, velocity or mode disturbed,
+and is simulated until the peaks of a watched displacement say whether it hunts or dies out. The
+amplitude between the two is found by bisection. A motion close to the edge lingers near the
+unstable limit cycle, so its peaks there give a second, simulated value of the unstable branch.
+
+Speeds in m/s; disturbances in the unit of the disturbed state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from tqdm import tqdm
+
+from exudyn_wheelset.analyses.branch import column_index
+from exudyn_wheelset.analyses.descent import mode_disturbance
+from exudyn_wheelset.analyses.records import describe, read_record, write_record
+from exudyn_wheelset.analyses.settling import Motion, Settling, typical_period, watched_index
+from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.errors import AnalysisError
+
+KIND = "disturbance runs"
+Outcome = Literal["hunts", "dies out", "lost contact"]
+
+# Growth of the block means over three blocks that decides for hunting before it has settled.
+GROWTH = 0.15
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalDisturbances:
+    """Smallest disturbance that leads to hunting, over speed.
+
+    speeds      (k,) [m/s]
+    critical    (k,) disturbance between the bracket's ends, in the unit of the disturbed state;
+                inf if the largest and seven smaller ones (steps of 0.7) die out, 0 if even the smallest hunts
+    bracket     (k, 2) largest that died out and smallest that hunted
+    edge        (k,) amplitude (half of peak to peak) of the watched displacement where the
+                motions of the bracket changed least: the unstable limit cycle; nan if unknown
+    runs        number of simulations
+    time        simulated in total [s]
+    direction   what was disturbed
+    reason      why it ended
+    method      "disturbance runs"
+    record      system, parameters, versions, settings
+    """
+
+    speeds: Array
+    critical: Array
+    bracket: Array
+    edge: Array
+    runs: int
+    time: float
+    direction: str
+    reason: str
+    method: str = "disturbance runs"
+    record: dict[str, Any] = field(default_factory=dict)
+
+    def save(self, path: str | Path) -> Path:
+        """Write to one .npz file, atomically; returns the path."""
+        record = {
+            **self.record,
+            "kind": KIND,
+            **{name: getattr(self, name) for name in ("runs", "time", "direction", "reason")},
+        }
+        arrays = {name: getattr(self, name) for name in _ARRAYS}
+        return write_record(path, arrays, record)
+
+    @classmethod
+    def load(cls, path: str | Path) -> CriticalDisturbances:
+        """The runs of a file; raises AnalysisError if it does not hold any."""
+        arrays, record = read_record(path, KIND)
+        fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
+        fields |= {name: record[name] for name in ("runs", "time", "direction", "reason")}
+        return cls(**fields, record=record)
+
+    def plot(self, ax: Any, factor: float = 1.0, **style: Any) -> Any:
+        """Draw the amplitudes at the edge as crosses; returns the axes."""
+        style = {"marker": "x", "linestyle": "none", "label": "disturbance runs", **style}
+        ax.plot(self.speeds, factor * self.edge, **style)
+        return ax
+
+
+_ARRAYS = ("speeds", "critical", "bracket", "edge")
+
+
+def critical_disturbance(
+    vehicle: Any,
+    speeds: float | Sequence[float] | Array,
+    largest: float,
+    *,
+    smallest: float | None = None,
+    direction: str | int | Sequence[float] | Array | None = None,
+    tolerance: float = 0.01,
+    watch: str | int | None = None,
+    settling: Settling | None = None,
+    progress: bool = False,
+) -> CriticalDisturbances:
+    """Critical amplitude of a one-off disturbance at each of `speeds` [m/s], by bisection.
+
+    direction   the disturbed state, by name or index (an offset or a velocity; default the first
+                lateral displacement); "mode" for the least damped mode (amplitude in units of
+                its largest displacement's scale); or a vector (n,) that the amplitude multiplies
+    largest     disturbance tried [unit of the disturbed state]
+    smallest    disturbance tried; default `largest`/1000
+    tolerance   relative width of the bracket in the end
+    watch       displacement whose peaks decide
+
+    Loss of contact or derailment counts as hunting: it is what must not happen. A keyboard
+    interrupt ends it with the speeds that are finished. Raises AnalysisError for a direction that
+    the system does not have.
+    """
+    system = as_system(vehicle)
+    values = np.atleast_1d(np.asarray(speeds, dtype=float))
+    smallest = 1e-3 * largest if smallest is None else smallest
+    if not 0.0 < smallest < largest or not 0.0 < tolerance < 1.0:
+        raise AnalysisError(
+            f"smallest = {smallest:g} must lie between 0 and largest = {largest:g}, tolerance = "
+            f"{tolerance:g} between 0 and 1"
+        )
+    settling = settling or Settling(block=3)
+    watched = watched_index(system, watch)
+    label = _label(system, direction)
+    rows: list[tuple[float, float, float, float]] = []
+    runs, time, reason = 0, 0.0, "all speeds are finished"
+    try:
+        for speed in tqdm(values, disable=not progress, unit="speed", desc="disturbances"):
+            search = _Search(system, float(speed), direction, watched, settling)
+            rows.append(search.bisect(smallest, largest, tolerance))
+            runs, time = runs + search.runs, time + search.time
+    except KeyboardInterrupt:
+        reason = "interrupted by the user"
+    table = np.array(rows).reshape(-1, 4)
+    settings = {
+        **asdict(settling),
+        "watch": system.state_names[watched],
+        "smallest": smallest,
+        "largest": largest,
+        "bisection_tolerance": tolerance,
+    }
+    return CriticalDisturbances(
+        speeds=values[: len(table)],
+        critical=table[:, 0],
+        bracket=table[:, 1:3],
+        edge=table[:, 3],
+        runs=runs,
+        time=time,
+        direction=label,
+        reason=reason,
+        record=describe(system, KIND, settings),
+    )
+
+
+class _Search:
+    def __init__(
+        self,
+        system: DynamicSystem,
+        speed: float,
+        direction: Any,
+        watched: int,
+        settling: Settling,
+    ) -> None:
+        self.system, self.speed = system, speed
+        self.watched, self.settling = watched, settling
+        self.period = typical_period(system, speed)
+        self.rest, self.direction = _disturbance(system, speed, direction, watched)
+        self.runs, self.time = 0, 0.0
+
+    def bisect(
+        self, smallest: float, largest: float, tolerance: float
+    ) -> tuple[float, float, float, float]:
+        """Critical amplitude, bracket and amplitude at the edge."""
+        # A very large disturbance may die out where a smaller one hunts.
+        trials = largest * 0.7 ** np.arange(8)
+        trials = trials[trials > smallest]
+        for high in map(float, trials):
+            outcome, edge = self.run(high)
+            if outcome != "dies out":
+                break
+        else:
+            return np.inf, largest, np.inf, np.nan
+        outcome, edge = self.run(smallest)
+        if outcome != "dies out":
+            return 0.0, 0.0, smallest, np.nan
+        low = smallest
+        while high - low > tolerance * high:
+            middle = float(np.sqrt(low * high)) if high > 4.0 * low else 0.5 * (low + high)
+            outcome, amplitude = self.run(middle)
+            edge = amplitude if np.isfinite(amplitude) else edge
+            if outcome == "dies out":
+                low = middle
+            else:
+                high = middle
+        return 0.5 * (low + high), low, high, edge
+
+    def run(self, amplitude: float) -> tuple[Outcome, float]:
+        """Outcome of one disturbance, and the amplitude where the motion changed least."""
+        self.runs += 1
+        motion = Motion(
+            self.system,
+            self.speed,
+            self.rest + amplitude * self.direction,
+            self.period,
+            self.watched,
+            self.settling,
+        )
+        while True:
+            verdict = motion.advance()
+            if verdict == "undecided" and motion.cycles < self.settling.cycles:
+                if not _grows(motion.means):
+                    continue
+                outcome: Outcome = "hunts"
+            elif verdict == "dying out":
+                outcome = "dies out"
+            else:
+                outcome = "lost contact" if verdict == "lost contact" else "hunts"
+            self.time += motion.time
+            return outcome, _least_change(motion.means)
+
+
+def _grows(means: list[float]) -> bool:
+    """Whether the amplitude has grown, ever faster or by much, over the last blocks.
+
+    The first block is left out: it holds the transient of the disturbance itself.
+    """
+    if len(means) < 5:
+        return False
+    logs = np.diff(np.log(means[-4:]))
+    return bool(np.all(logs > 0.0) and np.sum(logs) > GROWTH)
+
+
+def _least_change(means: list[float]) -> float:
+    if len(means) < 4:
+        return np.nan
+    logs = np.abs(np.diff(np.log(np.maximum(means[1:], 1e-300))))
+    index = int(np.argmin(logs)) + 1
+    return float(np.sqrt(means[index] * means[index + 1]))
+
+
+def _disturbance(
+    system: DynamicSystem, speed: float, direction: Any, watched: int
+) -> tuple[Array, Array]:
+    """Equilibrium (n,) and what the amplitude multiplies (n,)."""
+    rest = system.equilibrium(speed)
+    if isinstance(direction, str) and direction == "mode":
+        return rest, mode_disturbance(system, speed, 1.0) - rest
+    if direction is None or isinstance(direction, (str, int, np.integer)):
+        index = watched
+        if isinstance(direction, str):
+            index = column_index(system.state_names, direction)
+        elif direction is not None:
+            index = int(direction)
+        unit = np.zeros(system.size)
+        unit[index] = 1.0
+        return rest, unit
+    vector = np.asarray(direction, dtype=float)
+    if vector.shape != (system.size,):
+        raise AnalysisError(
+            f"the direction has shape {vector.shape}, the system {system.size} states: "
+            f"{', '.join(system.state_names)}"
+        )
+    return rest, vector
+
+
+def _label(system: DynamicSystem, direction: Any) -> str:
+    if direction is None:
+        return system.state_names[watched_index(system)]
+    if isinstance(direction, str):
+        return direction
+    if isinstance(direction, (int, np.integer)):
+        return system.state_names[int(direction)]
+    return f"vector {np.asarray(direction).tolist()}"

@@ -1,0 +1,191 @@
+"""The branch of limit cycles of a vehicle: bifurcation diagram of its hunting motion.
+
+`limit_cycles` follows the periodic orbits (see `collocation`, `continuation`) from a Hopf point or
+from a state that hunts, through folds, to the ends of a range of speeds, and gathers them into a
+`Branch`. Where linear stability is lost subcritically, the branch first runs back to lower speeds
+(unstable: the edge of the basin of attraction of the straight run) and turns at the fold, below
+which the vehicle does not hunt at all.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from exudyn_wheelset.analyses.branch import Branch, Fold, NamedColumns, StabilityChange
+from exudyn_wheelset.analyses.collocation import Collocation, Orbit
+from exudyn_wheelset.analyses.continuation import (
+    ContinuationSettings,
+    Point,
+    follow,
+    hopf_start,
+)
+from exudyn_wheelset.analyses.linear import CriticalPoint
+from exudyn_wheelset.analyses.records import describe
+from exudyn_wheelset.analyses.settling import orbit_near, watched_index
+from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.errors import AnalysisError
+
+
+def limit_cycles(
+    vehicle: Any,
+    start: CriticalPoint | Orbit | Sequence[float] | Array,
+    speeds: tuple[float, float],
+    *,
+    start_speed: float | None = None,
+    settings: ContinuationSettings | None = None,
+    progress: bool = False,
+    **changes: Any,
+) -> Branch:
+    """Branch of limit cycles through `start`, inside `speeds` = (low, high) [m/s].
+
+    `start` is a Hopf point of `hopf_points`; an `Orbit`; or a state (n,) at `start_speed` [m/s]
+    (default: the upper end of `speeds`), from which the vehicle is simulated until it hunts
+    steadily. From a Hopf point the branch is followed one way, from elsewhere both ways.
+    Settings are those of `ContinuationSettings`, whole or one by one (`intervals=40`).
+
+    A branch ends with a reason (`Branch.reason`) and keeps what was found. Raises AnalysisError if
+    there is no orbit to begin with.
+    """
+    system = as_system(vehicle)
+    low, high = map(float, speeds)
+    if not low < high:
+        raise AnalysisError(f"speeds = ({low:g}, {high:g}) m/s must be (low, high), low below high")
+    settings = replace(settings or ContinuationSettings(), **changes)
+    begun = time.perf_counter()
+    with tqdm(disable=not progress, unit="orbit", desc="limit cycles") as bar:
+        report = _reporter(system, bar)
+        if isinstance(start, CriticalPoint):
+            if not low <= start.speed <= high:
+                raise AnalysisError(
+                    f"the Hopf point at {start.speed:.4f} m/s lies outside of speeds = "
+                    f"({low:g}, {high:g}) m/s; widen the range"
+                )
+            equations = Collocation(system, 1.0 / start.frequency, high - low)
+            orbit, _, heading = hopf_start(equations, start, settings)
+            points, reason = follow(equations, orbit, heading, (low, high), settings, report)
+            hopf: tuple[float, float] | None = (start.speed, start.frequency)
+        else:
+            if isinstance(start, Orbit):
+                orbit = start
+            else:
+                at = high if start_speed is None else float(start_speed)
+                orbit = orbit_near(
+                    system,
+                    np.asarray(start, dtype=float),
+                    at,
+                    intervals=settings.intervals,
+                    degree=settings.degree,
+                )
+            equations = Collocation(system, orbit.period, high - low)
+            points, reason = _both_ways(equations, orbit, (low, high), settings, report)
+            hopf = None
+    cost = {
+        "right_hand_sides": equations.evaluations,
+        "jacobians": equations.jacobians,
+        "seconds": time.perf_counter() - begun,
+    }
+    record = describe(system, "continuation", {**settings.record(), "speeds": [low, high]})
+    return gather(system, points, hopf, reason, settings, {**record, "cost": cost})
+
+
+def gather(
+    system: DynamicSystem,
+    points: list[Point],
+    hopf: tuple[float, float] | None,
+    reason: str,
+    settings: ContinuationSettings,
+    record: dict[str, Any],
+) -> Branch:
+    """The Branch of a list of points."""
+    indices = list(system.displacement_indices)
+    names = [system.state_names[index] for index in indices]
+    amplitudes = np.array([point.orbit.half_peak_to_peak()[indices] for point in points])
+    multipliers = np.array([point.multipliers for point in points], dtype=complex)
+    sizes = np.abs(multipliers)
+    # A fold is stable from one side only, which is not stable.
+    marginal = np.array([point.is_fold for point in points])
+    stable = np.all(sizes < 1.0 + settings.stability_margin, axis=1) & ~marginal
+    folds: list[Fold] = []
+    for index, point in enumerate(points):
+        if point.is_fold:
+            beside = points[index - 1 if index else index + 1].orbit.speed
+            folds.append(
+                Fold(
+                    float(point.orbit.speed),
+                    dict(zip(names, map(float, amplitudes[index]), strict=True)),
+                    float(point.orbit.period),
+                    index,
+                    "lowest" if beside > point.orbit.speed else "highest",
+                )
+            )
+    return Branch(
+        speed=np.array([point.orbit.speed for point in points]),
+        period=np.array([point.orbit.period for point in points]),
+        amplitude=NamedColumns(amplitudes, names),
+        stable=stable,
+        multipliers=multipliers,
+        trivial_error=np.array([point.trivial_error for point in points]),
+        folds=folds,
+        changes=_stability_changes(points, settings.stability_margin),
+        hopf=hopf,
+        reason=reason,
+        mesh=np.array([point.orbit.mesh for point in points]),
+        states=np.array([point.orbit.states for point in points]),
+        record=record,
+    )
+
+
+def _both_ways(
+    equations: Collocation,
+    orbit: Orbit,
+    speeds: tuple[float, float],
+    settings: ContinuationSettings,
+    report: Callable[[Point], None],
+) -> tuple[list[Point], str]:
+    down, reason = follow(equations, orbit, -1.0, speeds, settings, report)
+    if reason == "the branch closed on itself" or reason.startswith("interrupted"):
+        return down, reason
+    up, other = follow(equations, orbit, 1.0, speeds, settings, report)
+    return [*down[:0:-1], *up], f"first point: {reason}; last point: {other}"
+
+
+def _stability_changes(points: list[Point], margin: float) -> list[StabilityChange]:
+    """Points between which the number of unstable multipliers changes without a fold."""
+    found: list[StabilityChange] = []
+    for index in range(1, len(points)):
+        before, after = points[index - 1], points[index]
+        if before.is_fold or after.is_fold:
+            continue
+        counts = [int(np.sum(np.abs(p.multipliers) > 1.0 + margin)) for p in (before, after)]
+        if counts[0] == counts[1]:
+            continue
+        position = min(counts)
+        pair = [np.abs(p.multipliers)[position] - 1.0 for p in (before, after)]
+        fraction = pair[0] / (pair[0] - pair[1])
+        speed = before.orbit.speed + fraction * (after.orbit.speed - before.orbit.speed)
+        crossing = (before if abs(pair[0]) < abs(pair[1]) else after).multipliers[position]
+        if abs(crossing.imag) > 1e-3:
+            found.append(StabilityChange(float(speed), "torus", index))
+        elif crossing.real > 0.0:
+            found.append(StabilityChange(float(speed), "branch point", index))
+        else:
+            found.append(StabilityChange(float(speed), "period doubling", index))
+    return found
+
+
+def _reporter(system: DynamicSystem, bar: Any) -> Callable[[Point], None]:
+    watched = watched_index(system)
+    name = system.state_names[watched].split(" [")[0]
+
+    def report(point: Point) -> None:
+        bar.update()
+        amplitude = point.orbit.half_peak_to_peak()[watched]
+        bar.set_postfix_str(f"{point.orbit.speed:.2f} m/s, {name} {amplitude:.3g}")
+
+    return report

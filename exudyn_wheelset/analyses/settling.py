@@ -1,0 +1,261 @@
+"""When has a simulated motion settled to a limit cycle, and when is it dying out?
+
+One displacement is watched. Each passage through its middle, upward, begins a cycle; the cycle's
+amplitude is half of the distance from its lowest to its highest peak. Cycles are averaged in
+blocks, and three block means A1, A2, A3 decide. If their differences shrink by the ratio
+r = (A3 - A2)/(A2 - A1), the geometric series puts the rest of the way at (A3 - A2) r/(1 - r):
+
+- settled     if that rest is below `tolerance` A3 and the last step is small too;
+- dying out   if A3 is below `rest` (and a fifth of where it began), or if the amplitude has fallen
+              to less than half of its largest and log A falls at a rate that does not slow down;
+- undecided   otherwise, e.g. in the slow passage past a fold, where r is about 1.
+
+Amplitudes in m or rad, times in s.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from exudyn_wheelset.analyses.branch import column_index
+from exudyn_wheelset.analyses.collocation import (
+    DEGREE,
+    INTERVALS,
+    Collocation,
+    Orbit,
+    orbit_from_samples,
+    solve_orbit,
+    speed_row,
+)
+from exudyn_wheelset.analyses.system import Array, DynamicSystem
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
+
+SAMPLES = 64
+State = Literal["undecided", "settled", "dying out", "lost contact"]
+
+
+@dataclass(frozen=True)
+class Settling:
+    """The criterion.
+
+    tolerance   rest of the way to the limit cycle, relative to the amplitude
+    rest        amplitude below which the motion has died out, in the displacement's scale
+    block       cycles in a block
+    cycles      after so many cycles an undecided motion is taken as it is
+    """
+
+    tolerance: float = 1e-3
+    rest: float = 0.02
+    block: int = 5
+    cycles: int = 400
+
+    def __post_init__(self) -> None:
+        if not (self.tolerance > 0.0 and self.rest > 0.0):
+            raise AnalysisError(
+                f"tolerance = {self.tolerance!r} and rest = {self.rest!r} must be positive"
+            )
+        if self.block < 1 or self.cycles < 3 * self.block:
+            raise AnalysisError(
+                f"cycles = {self.cycles} must hold at least three blocks of {self.block}"
+            )
+
+
+class Motion:
+    """A motion that is simulated on until it is decided.
+
+    state        (n,) at the end of what was simulated
+    time         simulated so far [s]
+    period       of the last cycles [s]
+    means        amplitude of each block [m or rad]
+    amplitudes   half of peak to peak of all displacements over the last block (d,)
+    """
+
+    def __init__(
+        self,
+        system: DynamicSystem,
+        speed: float,
+        state: Array,
+        period: float,
+        watch: int,
+        settling: Settling,
+    ) -> None:
+        self.system = system
+        self.speed = speed
+        self.state = np.array(state, dtype=float)
+        self.period = period
+        self.watch = watch
+        self.settling = settling
+        self.time = 0.0
+        self.cycles = 0
+        self.means: list[float] = []
+        self.amplitudes = np.zeros(len(system.displacement_indices))
+        self.failure = ""
+
+    def advance(self) -> State:
+        """Simulate one block and judge."""
+        settling = self.settling
+        span = (settling.block + 1) * self.period
+        times = np.linspace(0.0, span, SAMPLES * (settling.block + 1) + 1)
+        try:
+            states = self.system.simulate(self.state, self.speed, times)
+        except WheelsetError as error:
+            self.failure = str(error)
+            return "lost contact"
+        if not np.all(np.isfinite(states)):
+            self.failure = f"the motion at {self.speed:g} m/s is no longer finite"
+            return "lost contact"
+        self.state = states[-1].copy()
+        self.time += span
+        self.cycles += settling.block
+        moved = states[:, list(self.system.displacement_indices)]
+        self.amplitudes = 0.5 * (moved.max(axis=0) - moved.min(axis=0))
+        amplitudes, period = cycle_amplitudes(times, states[:, self.watch])
+        if len(amplitudes) == 0:
+            signal = states[:, self.watch]
+            amplitudes = np.array([0.5 * (signal.max() - signal.min())])
+        elif np.isfinite(period):
+            self.period = float(np.clip(period, 0.5 * self.period, 2.0 * self.period))
+        self.means.append(float(np.mean(amplitudes)))
+        return self._judge()
+
+    def decide(self) -> State:
+        """Simulate until decided, at most the number of cycles allowed."""
+        while True:
+            verdict = self.advance()
+            if verdict != "undecided" or self.cycles >= self.settling.cycles:
+                return verdict
+
+    def _judge(self) -> State:
+        settling = self.settling
+        # A motion that began smaller than the threshold of rest is measured by its beginning.
+        rest = settling.rest * self.system.scales[self.watch]
+        if self.means[-1] < min(rest, 0.2 * self.means[0]):
+            return "dying out"
+        if len(self.means) < 4:
+            return "undecided"
+        first, second, third, fourth = self.means[-4:]
+        steps = second - first, third - second, fourth - third
+        allowed = settling.tolerance * fourth
+        ratios = [abs(b) / max(abs(a), 1e-3 * allowed) for a, b in pairwise(steps)]
+        ratio = max(ratios)
+        if ratio < 0.98 and abs(steps[2]) * max(1.0, ratio / (1.0 - ratio)) < allowed:
+            return "settled"
+        if max(abs(step) for step in steps) < 0.03 * allowed:
+            return "settled"
+        logs = np.diff(np.log(self.means[-4:]))
+        falls = np.all(logs < -1e-3) and logs[1] < 0.97 * logs[0] and logs[2] < 0.97 * logs[1]
+        steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
+        if fourth < 0.5 * max(self.means) and (falls or steady):
+            return "dying out"
+        return "undecided"
+
+
+def watched_index(system: DynamicSystem, watch: str | int | None = None) -> int:
+    """State whose peaks are watched: by name or index; else the first lateral displacement.
+
+    Lateral means a name that begins with y (after the body's name and a colon); without one it
+    is the first displacement.
+    """
+    if isinstance(watch, str):
+        return column_index(system.state_names, watch)
+    if watch is not None:
+        return int(watch)
+    for index in system.displacement_indices:
+        name = system.state_names[index].split(": ")[-1].split(" [")[0]
+        if name == "y" or name.startswith("y_"):
+            return index
+    return system.displacement_indices[0]
+
+
+def cycle_amplitudes(times: Array, signal: Array) -> tuple[Array, float]:
+    """Amplitude of each whole cycle of a signal (m,), and the mean period [s] (nan if none).
+
+    Cycles run between upward passages of the middle of the signal. Peaks are those of the
+    parabola through the highest sample and its neighbours.
+    """
+    middle = 0.5 * (signal.max() + signal.min())
+    above = signal > middle
+    upward = np.flatnonzero(~above[:-1] & above[1:])
+    if len(upward) < 2:
+        return np.empty(0), np.nan
+    amplitudes = []
+    for start, end in pairwise(upward):
+        piece = slice(start, end + 2)
+        amplitudes.append(0.5 * (_peak(signal[piece]) + _peak(-signal[piece])))
+    fraction = (middle - signal[upward]) / (signal[upward + 1] - signal[upward])
+    passages = times[upward] + fraction * (times[upward + 1] - times[upward])
+    return np.array(amplitudes), float((passages[-1] - passages[0]) / (len(passages) - 1))
+
+
+def orbit_near(
+    system: DynamicSystem,
+    state: Array,
+    speed: float,
+    period: float | None = None,
+    watch: str | int | None = None,
+    settling: Settling | None = None,
+    intervals: int = INTERVALS,
+    degree: int = DEGREE,
+) -> Orbit:
+    """The limit cycle that the motion from a state (n,) settles to, to Newton's accuracy.
+
+    `period` [s] is a rough guess, taken from the least damped mode if left out. Raises
+    AnalysisError if the motion dies out or leaves the model, or if Newton does not converge.
+    """
+    index = watched_index(system, watch)
+    period = period or typical_period(system, speed)
+    motion = Motion(system, speed, state, period, index, settling or Settling())
+    verdict = motion.decide()
+    if verdict in ("dying out", "lost contact"):
+        raise AnalysisError(
+            f"no limit cycle at {speed:g} m/s from this state: the motion is {verdict} after "
+            f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; start from "
+            "a larger disturbance or another speed"
+        )
+    times = np.linspace(0.0, 2.2 * motion.period, 1 + round(2.2 * 400))
+    states = system.simulate(motion.state, speed, times)
+    signal = states[:, index]
+    middle = 0.5 * (signal.max() + signal.min())
+    start = int(np.flatnonzero((signal[:-1] <= middle) & (signal[1:] > middle))[0])
+    # The period is where the motion comes closest to a state on the cycle.
+    apart = np.linalg.norm((states[start:] - states[start]) / system.scales, axis=1)
+    low, high = np.searchsorted(times, times[start] + np.array([0.7, 1.3]) * motion.period) - start
+    back = low + int(np.argmin(apart[low:high]))
+    count = intervals * degree
+    cycle = system.simulate(
+        states[start], speed, np.linspace(0.0, times[start + back] - times[start], count + 1)
+    )
+    length = times[start + back] - times[start]
+    guess = orbit_from_samples(cycle, length, speed, intervals, degree)
+    equations = Collocation(system, length, max(1.0, abs(speed)))
+    row = speed_row(guess, len(system.scales))
+    return solve_orbit(equations, guess, row, tolerance=1e-8, iterations=40).orbit
+
+
+def typical_period(system: DynamicSystem, speed: float) -> float:
+    """Period [s] of the least damped oscillation about the equilibrium at a speed [m/s]."""
+    state = system.equilibrium(speed)
+    scales = system.scales
+    matrix = system.jacobian(state, speed) * scales[None, :] / scales[:, None]
+    values = np.linalg.eigvals(matrix)
+    pairs = values[values.imag > 1e-3 * np.abs(values).max() * 1e-3]
+    if len(pairs) == 0:
+        raise AnalysisError(
+            f"{system.name} does not oscillate about its equilibrium at {speed:g} m/s; give the "
+            "period of the motion"
+        )
+    damping = -pairs.real / np.abs(pairs)
+    return float(2.0 * np.pi / pairs[np.argmin(damping)].imag)
+
+
+def _peak(values: Array) -> float:
+    index = int(np.argmax(values))
+    if index in (0, len(values) - 1):
+        return float(values[index])
+    below, middle, above = values[index - 1 : index + 2]
+    curvature = below - 2.0 * middle + above
+    return float(middle - 0.125 * (above - below) ** 2 / curvature) if curvature else float(middle)
