@@ -92,7 +92,7 @@ def test_aar_pieces_are_tangent_and_of_the_stated_size():
     assert math.degrees(math.atan(np.max(slopes))) == pytest.approx(75.0, abs=0.03)
     throat = profile.curvature(np.linspace(-0.0445, -0.0335, 50))
     assert throat == pytest.approx(-1.0 / (11.0 / 16.0 * inch), rel=0.01)
-    back = 53.375 * inch / 2 - 0.75
+    back = -(2 + 27 / 32) * inch
     assert profile.height(back + 37.0 / 32.0 * inch) == pytest.approx(-3.0 / 8.0 * inch, abs=1e-9)
     # The step between neighbouring tangents of the points stays that of the tightest arc.
     turn = np.diff(np.arctan2(np.diff(profile.z), np.diff(profile.y)))
@@ -101,7 +101,7 @@ def test_aar_pieces_are_tangent_and_of_the_stated_size():
 
 def test_aar_wide_flange():
     inch = 0.0254
-    wide = shapes.aar_1_20(flange_thickness=1.375 * inch, back_to_back=(53 + 3 / 32) * inch)
+    wide = shapes.aar_1_20(flange_thickness=1.375 * inch, tape_from_flange_back=(3 + 1 / 16) * inch)
     assert np.min(wide.z) == pytest.approx(-inch, abs=2e-7)
     with pytest.raises(ProfileError, match=r"overlap|not on the flange"):
         shapes.aar_1_20(flange_height=0.012)

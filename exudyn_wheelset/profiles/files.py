@@ -1,7 +1,16 @@
 """Loading profiles by name or from a file, and saving them.
 
 A bare name ("S1002", "UIC60", "AAR_1_20", "knife_edge", "cone_1_20", "cone_0.05" and cones of any
-conicity) is one of the profiles that come with the package; anything else is a path.
+conicity) is one of the profiles that come with the package; anything else is a path. The format of
+a file is found from its content and its suffix:
+
+| format | suffix | module |
+|---|---|---|
+| two columns of text, CSV | any other | formats/two_column.py |
+| SIMPACK | .prw .prr | formats/simpack.py |
+| MiniProf | .whl .ban .rai .mpt | formats/miniprof.py |
+| VAMPIRE | .whe .rai | formats/vampire.py |
+| GENSYS | .wheel .rail | formats/gensys.py |
 """
 
 from __future__ import annotations
@@ -11,15 +20,16 @@ import os
 import re
 from pathlib import Path
 
-import numpy as np
-
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
-from exudyn_wheelset.profiles.formats import two_column
+from exudyn_wheelset.profiles.finish import Options, check_options, finish
+from exudyn_wheelset.profiles.formats import gensys, miniprof, simpack, two_column, vampire
+from exudyn_wheelset.profiles.formats.raw import RawProfile, decode, fault, split_lines
 from exudyn_wheelset.profiles.profile import Profile
 
 BUNDLED = ("S1002", "UIC60", "AAR_1_20", "cone_1_20", "knife_edge")
-_UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254, "in": 0.0254}
+FORMATS = ("two-column", "simpack", "miniprof", "vampire", "gensys")
+_SIDES = ("left", "right")
 
 
 def load_profile(
@@ -28,57 +38,134 @@ def load_profile(
     kind: str | None = None,
     unit: str | None = None,
     smoothing: float = 0.0,
+    side: str = "left",
+    format: str | None = None,
+    outlier_tolerance: float | None = None,
+    shift_y: float = 0.0,
+    shift_z: float = 0.0,
 ) -> Profile:
-    """A profile by its name or from a file; a Profile passes through.
+    """A wheel or rail profile by its name or from a file; a Profile passes through.
 
-    kind: "wheel" or "rail" where the file does not say; unit: "mm", "m", "cm" or "inch" likewise;
-    smoothing: rms distance of the points to the curve [m].
+    kind: "wheel" or "rail" where the file does not say; unit: "mm", "m", "cm" or "inch", which
+    goes before the file's own; smoothing: rms distance of the points to the curve [m], 0 to 1e-3;
+    side: "left" or "right" where a file holds both; format: one of FORMATS instead of finding it;
+    outlier_tolerance: points farther than this [m] from the curve through their neighbours are
+    left out and reported; shift_y, shift_z: added to the points [m] in the package's frame.
+    What was turned, cut off, shifted or guessed stands in the profile's `remarks`.
+
     Raises ProfileError, which names the file, the line and the mend.
     """
+    check_options(kind, smoothing)
+    if side not in _SIDES:
+        raise ProfileError(f"side={side!r}; use 'left' or 'right'")
+    if format is not None and format not in FORMATS:
+        raise ProfileError(f"format={format!r}; use one of {', '.join(FORMATS)}")
     if isinstance(name_or_path, Profile):
-        return name_or_path.smoothed(smoothing) if smoothing else name_or_path
-    bundled = _bundled(os.fspath(name_or_path))
-    if bundled is not None:
-        return bundled.smoothed(smoothing) if smoothing else bundled
-    path = Path(name_or_path)
-    if not path.is_file():
+        profile: Profile | None = name_or_path
+        path = Path()
+    else:
+        path = Path(name_or_path)
+        profile = _bundled(str(name_or_path)) if isinstance(name_or_path, str) else None
+    if profile is not None:
+        if kind not in (None, profile.kind):
+            raise ProfileError(f"{profile.name} is a {profile.kind}, but kind={kind!r} was asked")
+        if shift_y or shift_z:
+            profile = profile.shifted(shift_y, shift_z)
+        return profile.smoothed(smoothing) if smoothing else profile
+    label = str(path)
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
         raise ProfileError(
-            f"{path}: no such file, and no profile of that name; names are {', '.join(BUNDLED)} "
+            f"{label}: no such file, and no profile of that name; names are {', '.join(BUNDLED)} "
             "and cone_<conicity>"
-        )
-    return _parse(path.read_text(), str(path), kind, unit, smoothing)
+        ) from None
+    except (OSError, ValueError) as error:
+        raise ProfileError(f"{label}: cannot be read ({error})") from None
+    text, remarks = decode(data, label)
+    options = Options(kind, unit, smoothing, outlier_tolerance, (shift_y, shift_z))
+    raw = _read(split_lines(text), label, path.suffix.lower(), format, kind, side)
+    raw.remarks[:0] = remarks
+    return finish(raw, label, path.stem, options)
 
 
 def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | None = None) -> Path:
-    """Write the profile as a two-column text file; returns the path."""
+    """Write the points of a profile to a file and return its path.
+
+    format: "two-column" or "simpack"; without it the suffixes .prw and .prr give SIMPACK and any
+    other suffix two columns in millimetres. A mirrored profile is written in the frame of the side
+    that is stored (y > 0 to the field side). Raises ProfileError for an unknown format or a suffix
+    that belongs to the other kind.
+    """
     target = Path(path)
-    target.write_text(two_column.write(profile))
+    suffix = target.suffix.lower()
+    simpack_suffix = {"wheel": ".prw", "rail": ".prr"}
+    if format is None:
+        format = "simpack" if suffix in simpack_suffix.values() else "two-column"
+    if format not in ("two-column", "simpack"):
+        raise ProfileError(f"format={format!r}; profiles are written as 'two-column' or 'simpack'")
+    if suffix in simpack_suffix.values() and suffix != simpack_suffix[profile.kind]:
+        raise ProfileError(
+            f"{target}: {profile.name} is a {profile.kind}; use {simpack_suffix[profile.kind]}"
+        )
+    stored = profile.mirrored() if profile.is_mirrored else profile
+    text = simpack.write(stored) if format == "simpack" else two_column.write(stored)
+    target.write_text(text, encoding="utf-8", newline="\n")
     return target
 
 
 def _bundled(name: str) -> Profile | None:
     plain = re.sub(r"[\s_-]+", "", name).lower()
-    cone = re.fullmatch(r"cone(?:1[:/]?(\d+)|(\d*\.\d+))", plain)
+    cone = re.fullmatch(r"cone(?:1[:/]?(\d+)|(\d*\.\d+))", plain, re.ASCII)
     if cone:
-        conicity = 1.0 / float(cone[1]) if cone[1] else float(cone[2])
-        return shapes.cone(conicity)
+        denominator = int(cone[1]) if cone[1] else 0
+        if cone[1] and not denominator:
+            raise ProfileError(f"{name}: a cone of 1:0; write cone_1_20 or cone_0.05")
+        return shapes.cone(1.0 / denominator if denominator else float(cone[2]))
     for stem in BUNDLED:
         if plain == stem.replace("_", "").lower():
             resource = importlib.resources.files("exudyn_wheelset.profile_files") / f"{stem}.txt"
-            return _parse(resource.read_text(encoding="utf-8"), stem, None, None, 0.0)
+            raw = two_column.read(split_lines(resource.read_text(encoding="utf-8")), stem)
+            return finish(raw, stem, stem, Options())
     return None
 
 
-def _parse(text: str, label: str, kind: str | None, unit: str | None, smoothing: float) -> Profile:
-    header = dict(re.findall(r"^# (name|kind|unit|source): (.*)$", text, flags=re.MULTILINE))
-    rows = [line.split() for line in text.splitlines() if line.strip() and line[0] != "#"]
-    factor = _UNITS[unit or header.get("unit", "mm")]
-    points = np.array(rows, dtype=np.float64) * factor
-    return Profile(
-        header.get("name", label),
-        kind or header.get("kind", "wheel"),
-        points[:, 0],
-        points[:, 1],
-        source=header.get("source", ""),
-        smoothing=smoothing,
-    )
+def _read(
+    lines: list[str], label: str, suffix: str, format: str | None, kind: str | None, side: str
+) -> RawProfile:
+    if format is None:
+        format = _format_of(lines, suffix)
+    if format == "simpack":
+        if not simpack.looks_like(lines):
+            raise fault(label, 1, "no 'header.begin' or 'spline.begin'; this is no SIMPACK profile")
+        raw = simpack.read(lines, label)
+        expected = {".prw": "wheel", ".prr": "rail"}.get(suffix)
+        if expected and raw.kind != expected:
+            raise fault(
+                label,
+                raw.kind_line,
+                f"the type says {raw.kind}, the suffix {suffix} {expected}; mend the one or other",
+            )
+        return raw
+    if format == "vampire":
+        if not vampire.looks_like(lines):
+            raise fault(label, 1, "the first line is neither WHEELPROFILE nor RAILPROFILE")
+        return vampire.read(lines, label, side)
+    if format == "miniprof":
+        return miniprof.read(lines, label, kind)
+    if format == "gensys":
+        return gensys.read(lines, label)
+    return two_column.read(lines, label)
+
+
+def _format_of(lines: list[str], suffix: str) -> str:
+    """The format by content, then by suffix; .rai belongs to MiniProf and VAMPIRE alike."""
+    if vampire.looks_like(lines):
+        return "vampire"
+    if simpack.looks_like(lines) or suffix in (".prw", ".prr"):
+        return "simpack"
+    if miniprof.looks_like(lines) or suffix in (".whl", ".ban", ".rai", ".mpt"):
+        return "miniprof"
+    if suffix == ".whe":
+        return "vampire"
+    return "gensys" if suffix in (".wheel", ".rail") else "two-column"

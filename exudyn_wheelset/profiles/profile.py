@@ -162,7 +162,7 @@ class Profile:
         keep = np.arange(len(self.y))
         dropped: list[int] = []
         while True:
-            distance = np.abs(_distance_to_neighbours(self.y[keep], self.z[keep]))
+            distance = np.abs(distance_to_neighbours(np.column_stack((self.y, self.z))[keep]))
             worst = int(np.argmax(distance))
             if distance[worst] <= tolerance:
                 break
@@ -346,29 +346,15 @@ def advancing_part(y: FloatArray, z: FloatArray) -> slice:
     return slice(first, last)
 
 
-def _column(name: str, label: str, values: ArrayLike) -> FloatArray:
-    try:
-        column = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ProfileError(f"{name}: {label} is not a row of numbers ({error})") from None
-    if column.ndim != 1:
-        raise ProfileError(
-            f"{name}: {label} has the shape {column.shape}; give one row of numbers in metres"
-        )
-    column.setflags(write=False)
-    return column
-
-
-def _distance_to_neighbours(y: FloatArray, z: FloatArray) -> FloatArray:
+def distance_to_neighbours(points: FloatArray) -> FloatArray:
     """Distance of each point to the cubic through two neighbours on either side [m], shape (n,).
 
-    It is 0 for the two points at each end.
+    points: shape (n, 2), columns y and z [m]. It is 0 for the two points at each end.
     """
-    points = np.column_stack((y, z))
     t = curves.chord_length(points)
-    distance = np.zeros(len(y))
+    distance = np.zeros(len(t))
     window = [-2, -1, 1, 2]
-    inner = np.arange(2, len(y) - 2)
+    inner = np.arange(2, len(t) - 2)
     predicted = np.zeros((len(inner), 2))
     for i in window:
         weight = np.ones(len(inner))
@@ -381,3 +367,16 @@ def _distance_to_neighbours(y: FloatArray, z: FloatArray) -> FloatArray:
     tangent /= np.hypot(tangent[:, 0], tangent[:, 1])[:, None]
     distance[inner] = offset[:, 1] * tangent[:, 0] - offset[:, 0] * tangent[:, 1]
     return distance
+
+
+def _column(name: str, label: str, values: ArrayLike) -> FloatArray:
+    try:
+        column = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ProfileError(f"{name}: {label} is not a row of numbers ({error})") from None
+    if column.ndim != 1:
+        raise ProfileError(
+            f"{name}: {label} has the shape {column.shape}; give one row of numbers in metres"
+        )
+    column.setflags(write=False)
+    return column

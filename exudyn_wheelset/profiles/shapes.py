@@ -159,8 +159,7 @@ def aar_1_20(
     flange_height: float = 1.0 * INCH,
     flange_thickness: float = 37.0 / 32.0 * INCH,
     thickness_depth: float = 3.0 / 8.0 * INCH,
-    back_to_back: float = 53.375 * INCH,
-    tape_half_distance: float = 0.75,
+    tape_from_flange_back: float = (2.0 + 27.0 / 32.0) * INCH,
     minimum_face: float = 0.1 * INCH,
     field_end: float = 0.06,
 ) -> Profile:
@@ -173,10 +172,9 @@ def aar_1_20(
     flange_height 1 in: tip below the tape line, freight and passenger wheels alike;
     flange_thickness 1 5/32 in (narrow flange; wide: 1 3/8 in), measured from the flange back at
     thickness_depth 3/8 in below the tape line, which is North America's gauge point;
-    back_to_back 53 3/8 in, which goes with the narrow flange (wide: 53 3/32 in): it leaves the
-    10 mm of flange play on 1435 mm that narrow-flange wheelsets have;
-    tape_half_distance 0.75 m: half the distance of the tape circles of the wheelset this profile
-    is made for; with back_to_back it places y = 0 above the flange back;
+    tape_from_flange_back 2 27/32 in (narrow flange; wide: 3 1/16 in): the tape line of American
+    wheels in vehicle dynamics programs. The gauge side then lies 42.9 mm from the tape line with
+    both flanges, since both distances differ by 7/32 in;
     minimum_face 0.1 in: least length over which APTA SS-M-015-06 wants the flange angle kept;
     the tip's radius is not chosen: it is the greatest that leaves this face and touches the
     flange's back plane, its greatest depth and its face, 11.5 mm with these values. Where the
@@ -191,7 +189,7 @@ def aar_1_20(
             f"flange_angle = {flange_angle:g} rad and taper = {taper:g} leave no throat; "
             "use an angle between atan(taper) and 1.55 rad"
         )
-    back = back_to_back / 2.0 - tape_half_distance
+    back = -tape_from_flange_back
     gauge_point = back + flange_thickness
     # The fillet's tangent point on the tread, throat_start, is found from the gauge point.
     sin_t, cos_t = math.sin(tread_angle), math.cos(tread_angle)

@@ -1,0 +1,161 @@
+"""MiniProf measurements: wheels (.whl), rails (.ban, .rai) and templates (.mpt), in millimetres.
+
+The header has lines key=value, in old files free text; a blank line ends it and the points follow,
+in the columns that ColumnDef names (X, Y, then angle, curvature and others, not used here).
+Comment lines begin with ", !, % or #. XOffset and YOffset are added. Templates have sections in
+brackets and straight pieces MPDn=L x1 y1 x2 y2.
+
+Conventions (from files of the instrument): wheel: X from the flange back towards the field side,
+Y = 0 on the tread 70 mm from the flange back, towards the flange tip; rail: X towards the gauge
+side, Y up. So y = X - 70 mm, z = -Y for a wheel and y = -X, z = Y for a rail; whether Y was up or
+down is checked on the shape.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from exudyn_wheelset.profiles.formats.raw import (
+    RawProfile,
+    coordinate,
+    fault,
+    number,
+    shorten,
+)
+
+NAME = "MiniProf"
+TAPE_FROM_FLANGE_BACK = 70.0
+_KEYS = re.compile(
+    r"^\s*(XYPoints|ColumnDef|MPTypeNo|MPSerNo|ProgramName|RefPoint1|MPDC)\s*=", re.I
+)
+_COMMENT = ('"', "!", "%", "#")
+
+
+def looks_like(lines: list[str]) -> bool:
+    """Whether a text has MiniProf's keywords or an old MiniProf heading."""
+    if lines and lines[0].lstrip().upper().startswith(("#MINIWHEELPROF", "#MINIRAILPROF")):
+        return True
+    return sum(bool(_KEYS.match(line)) for line in lines[:200]) >= 2
+
+
+def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
+    """Read a MiniProf file; the kind comes from the suffix where the caller gives none."""
+    raw = RawProfile(NAME, unit="mm")
+    suffix = label.lower().rsplit(".", 1)[-1]
+    first_line = lines[0].upper() if lines else ""
+    if suffix == "whl" or "MINIWHEELPROF" in first_line:
+        raw.kind = "wheel"
+    elif suffix in ("ban", "rai") or "MINIRAILPROF" in first_line:
+        raw.kind = "rail"
+    header: dict[str, tuple[str, int]] = {}
+    pieces: list[tuple[str, int]] = []
+    data_from = _header(lines, header, pieces)
+    raw.name = header.get("filename", ("", 0))[0]
+    if pieces:
+        _template(raw, pieces, label)
+    else:
+        _table(raw, lines, data_from, header, label)
+    offsets = []
+    for axis, key in (("y", "xoffset"), ("z", "yoffset")):
+        text, line = header.get(key, ("", 0))
+        value = number(text) if text else 0.0
+        if value is None or not math.isfinite(value) or abs(value) > 1e7:
+            raise fault(label, line, f"{key} is {shorten(text)!r}, not a number; mend it")
+        offsets.append(value)
+        if value:
+            raw.remarks.append(f"{axis} shifted by {value:g} mm ({key})")
+    wheel = (kind or raw.kind) == "wheel"
+    if wheel:
+        raw.y = [x + offsets[0] - TAPE_FROM_FLANGE_BACK for x in raw.y]
+        raw.z = [-(y + offsets[1]) for y in raw.z]
+        raw.remarks.append(
+            f"MiniProf wheel: y = 0 put {TAPE_FROM_FLANGE_BACK:g} mm from the flange back, "
+            "z turned up"
+        )
+    else:
+        raw.y = [-(x + offsets[0]) for x in raw.y]
+        raw.z = [y + offsets[1] for y in raw.z]
+        raw.remarks.append("MiniProf rail: y turned to the field side")
+    return raw
+
+
+def _header(
+    lines: list[str], header: dict[str, tuple[str, int]], pieces: list[tuple[str, int]]
+) -> int:
+    """Collect the header; returns the index of the first line that may hold a point."""
+    last = -1
+    for index, line in enumerate(lines):
+        match = re.match(r"^\s*([A-Za-z][\w .]*?)\s*=\s*(.*?)\s*$", line)
+        if match:
+            key = match[1].lower()
+            header.setdefault(key, (match[2], index + 1))
+            if re.fullmatch(r"mpd\d+", key):
+                pieces.append((match[2], index + 1))
+            last = index
+    if last >= 0:
+        return last + 1
+    for index, line in enumerate(lines):
+        tokens = line.split()
+        if not tokens and index:
+            return index + 1
+        if tokens and number(tokens[0]) is not None:
+            return index
+    return 0
+
+
+def _table(
+    raw: RawProfile,
+    lines: list[str],
+    data_from: int,
+    header: dict[str, tuple[str, int]],
+    label: str,
+) -> None:
+    definition, definition_line = header.get("columndef", ("X,Y", 0))
+    names = [name.strip().upper() for name in re.split(r"[,;\s]+", definition) if name.strip()]
+    if "X" not in names or "Y" not in names:
+        raise fault(
+            label, definition_line, f"ColumnDef={shorten(definition)} has no X and Y; mend it"
+        )
+    columns = names.index("X"), names.index("Y")
+    for index in range(data_from, len(lines)):
+        text = lines[index].strip().strip("\x1a")
+        if not text or text.startswith(_COMMENT):
+            continue
+        tokens = re.split(r"[\s;]+", text)
+        if len(tokens) <= max(columns):
+            raise fault(
+                label,
+                index + 1,
+                f"{len(tokens)} of {len(names)} columns ({shorten(text)!r}); "
+                "add the missing value or delete the line",
+            )
+        x = coordinate(tokens[columns[0]], label, index + 1, "X")
+        raw.add(x, coordinate(tokens[columns[1]], label, index + 1, "Y"), index + 1)
+    text, line = header.get("xypoints", ("", 0))
+    announced = number(text) if text else None
+    if announced is not None and math.isfinite(announced):
+        if len(raw.y) < 0.5 * announced:
+            raise fault(
+                label,
+                line,
+                f"XYPoints={text} but {len(raw.y)} points follow; the file seems to be cut off",
+            )
+        if round(announced) != len(raw.y):
+            raw.remarks.append(f"XYPoints={text} but {len(raw.y)} points")
+
+
+def _template(raw: RawProfile, pieces: list[tuple[str, int]], label: str) -> None:
+    for text, line in pieces:
+        tokens = text.split()
+        if len(tokens) != 5 or tokens[0].upper() != "L":
+            raise fault(
+                label, line, f"{shorten(text)!r}; only straight pieces 'L x1 y1 x2 y2' are read"
+            )
+        ends = [coordinate(token, label, line, "coordinate") for token in tokens[1:]]
+        start = (raw.y[-1], raw.z[-1]) if raw.y else None
+        if start is None:
+            raw.add(ends[0], ends[1], line)
+        elif math.hypot(ends[0] - start[0], ends[1] - start[1]) > 1e-3:
+            raise fault(label, line, "the piece does not begin where the one before ends")
+        raw.add(ends[2], ends[3], line)

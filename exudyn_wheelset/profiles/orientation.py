@@ -1,0 +1,63 @@
+"""What a row of points looks like: a rail head, a wheel with its flange, and which way round.
+
+The test looks at the level stretches of a profile. A rail head has 20 mm or more of nearly level
+surface at its extreme height, and falls from there to both sides. A wheel has its extreme height
+at the narrow flange tip and 30 mm or more of nearly level tread well away from that height.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+_GRID = 1e-3
+_LEVEL_SLOPE = 0.25
+_HEAD_WIDTH = 0.02
+_HEAD_DEPTH = 3e-3
+_HEAD_FALL = 4e-3
+_TREAD_WIDTH = 0.03
+_FLANGE_HEIGHT = 8e-3
+
+
+@dataclass(frozen=True)
+class Look:
+    """kind: "wheel" or "rail"; y_sign, z_sign: -1 where the axis must be turned, else 1."""
+
+    kind: str
+    y_sign: int
+    z_sign: int
+
+
+def look_at(y: FloatArray, z: FloatArray) -> Look | None:
+    """What points with increasing y look like [m]; None where the shape does not tell.
+
+    The direction of y of a rail cannot be told from its shape; y_sign is 1 there.
+    """
+    grid = np.arange(y[0], y[-1] + 0.5 * _GRID, _GRID)
+    if len(grid) < 10:
+        return None
+    height = np.interp(grid, y, z)
+    slope = np.gradient(height, _GRID)
+    level = np.abs(slope) < _LEVEL_SLOPE
+    best: Look | None = None
+    widest = 0.0
+    for sign in (1, -1):
+        up = sign * height
+        top = int(np.argmax(sign * z))
+        fall = min(sign * (z[top] - z[0]), sign * (z[top] - z[-1]))
+        if fall < _HEAD_FALL or top in (0, len(z) - 1):
+            continue
+        depth = sign * z[top] - up
+        head = _GRID * np.count_nonzero(level & (depth < _HEAD_DEPTH))
+        tread = level & (depth > _FLANGE_HEIGHT)
+        width = _GRID * np.count_nonzero(tread)
+        if width >= _TREAD_WIDTH and width > head and width > widest:
+            beyond = float(np.mean(grid[tread])) > y[top]
+            best, widest = Look("wheel", 1 if beyond else -1, -sign), width
+        elif head >= _HEAD_WIDTH and head > widest:
+            best, widest = Look("rail", 1, sign), head
+    return best
