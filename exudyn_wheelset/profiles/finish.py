@@ -193,7 +193,7 @@ def _without_outliers(
         remarks.append(f"{doubled} doubled points left out")
     dropped: list[int] = []
     while len(keep) >= 8:
-        distance = np.abs(distance_to_neighbours(points[keep]))
+        distance = distance_to_neighbours(points[keep])
         worst = np.flatnonzero(distance > tolerance)
         if not len(worst):
             break

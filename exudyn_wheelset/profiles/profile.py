@@ -162,7 +162,7 @@ class Profile:
         keep = np.arange(len(self.y))
         dropped: list[int] = []
         while True:
-            distance = np.abs(distance_to_neighbours(np.column_stack((self.y, self.z))[keep]))
+            distance = distance_to_neighbours(np.column_stack((self.y, self.z))[keep])
             worst = int(np.argmax(distance))
             if distance[worst] <= tolerance:
                 break
@@ -304,16 +304,17 @@ def check_kind(name: str, kind: str, y: FloatArray, z: FloatArray) -> None:
                 f"{name}: y reaches from {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm and leaves out "
                 "the tape circle y = 0; shift the profile so that y = 0 lies on the tape circle"
             )
-        if y[lowest] > 0.0 and z[-1] < z[0] and np.ptp(z) > 1e-6:
-            raise ProfileError(
-                f"{name}: the lowest point lies at y = {1e3 * y[lowest]:.2f} mm, on the field "
-                "side; the flange belongs to y < 0 with z up: mirror y"
-                + (" and z" if z[top] > 0.015 and y[top] < 0 else "")
-            )
-        if y[top] < 0.0 and z[top] > 0.015:
+        if z[top] > 0.015 and z[top] > -z[lowest]:
+            side = "" if y[top] < 0.0 else " and mirror y"
             raise ProfileError(
                 f"{name}: the flange points up (z = {1e3 * z[top]:.2f} mm at "
                 f"y = {1e3 * y[top]:.2f} mm); z is up and the flange tip below: turn the sign of z"
+                + side
+            )
+        if y[lowest] > 0.0 and z[-1] < z[0] and np.ptp(z) > 1e-6:
+            raise ProfileError(
+                f"{name}: the lowest point lies at y = {1e3 * y[lowest]:.2f} mm, on the field "
+                "side; the flange belongs to y < 0: mirror y"
             )
         datum = float(np.interp(0.0, y, z))
         if abs(datum) > _DATUM_TOLERANCE:
@@ -362,10 +363,7 @@ def distance_to_neighbours(points: FloatArray) -> FloatArray:
             if j != i:
                 weight *= (t[inner] - t[inner + j]) / (t[inner + i] - t[inner + j])
         predicted += weight[:, None] * points[inner + i]
-    offset = points[inner] - predicted
-    tangent = points[inner + 1] - points[inner - 1]
-    tangent /= np.hypot(tangent[:, 0], tangent[:, 1])[:, None]
-    distance[inner] = offset[:, 1] * tangent[:, 0] - offset[:, 0] * tangent[:, 1]
+    distance[inner] = np.hypot(*(points[inner] - predicted).T)
     return distance
 
 

@@ -3,7 +3,7 @@
 Header lines "# key: value" may give name, kind (wheel or rail), unit (mm, m, cm, inch) and source.
 With the kind in such a header the file is taken as it is, in the frames of
 `exudyn_wheelset.profiles.profile`; without it, unit, kind and orientation are detected and said in
-the profile's remarks. Other comment lines (#, %, !, //, ") and lines of words before the first
+the profile's remarks. Other comment lines (#, %, !, //) and lines of words before the first
 numbers are skipped; a line of column names may carry the unit: "y [mm]; z [mm]".
 
 Columns are separated by blanks, tabs, semicolons or commas; a decimal comma is understood where
@@ -29,7 +29,7 @@ from exudyn_wheelset.profiles.profile import Profile
 NAME = "two-column text"
 Split = Callable[[str], list[str]]
 _HEADER = re.compile(r"^\s*[#%!/\"]+\s*(name|kind|unit|units|source)\s*[:=]\s*(.*?)\s*$", re.I)
-_COMMENT = ("#", "%", "!", "//", '"')
+_COMMENT = ("#", "%", "!", "//")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+(?:[eE][+-]?\d+)?")
 _COLUMN_NAMES = (("y", "z"), ("x", "y"), ("x", "z"), ("lateral", "vertical"))
 
@@ -47,7 +47,7 @@ def read(lines: list[str], label: str) -> RawProfile:
             _header(raw, text, count, label)
             continue
         text = _without_comment(text)
-        if re.match(r"[+\-.,;]?\s*\d|[+-]?(nan|inf)\b", text, re.I) or rows:
+        if re.match(r"[\"+\-.,;]*\s*\d|[+-]?(nan|inf)\b", text, re.I) or rows:
             rows.append((count, text))
         elif text:
             words.append((count, text))
