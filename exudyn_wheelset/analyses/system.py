@@ -27,6 +27,8 @@ Array = np.ndarray
 # Relative step of central differences: the cube root of the rounding unit balances the cut-off
 # error O(h^2) against the rounding error O(1/h).
 DIFFERENCE_STEP = 6.0e-6
+# A motion that leaves this many scales has run away; integrators then only shorten their steps.
+RUNAWAY = 1.0e9
 
 
 class SimulationError(AnalysisError):
@@ -115,21 +117,28 @@ class DynamicSystem(ABC):
         Raises SimulationError, which keeps the samples computed so far, if it ends early.
         """
         times = np.asarray(times, dtype=float)
+
+        def in_range(_: float, x: Array) -> float:
+            return RUNAWAY - float(np.max(np.abs(x) / self.scales))
+
+        in_range.terminal = True  # type: ignore[attr-defined]
         solution = solve_ivp(
             lambda _, x: self.derivative(x, speed),
             (times[0], times[-1]),
             np.asarray(state, dtype=float),
             method="LSODA",
             t_eval=times,
+            events=in_range,
             rtol=1e-8,
             atol=1e-9 * np.asarray(self.scales),
         )
         states = solution.y.T
-        if not solution.success or not np.all(np.isfinite(states)):
-            finite = int(np.argmin([*np.all(np.isfinite(states), axis=1), False]))
+        finite = int(np.argmin([*np.all(np.isfinite(states), axis=1), False]))
+        if finite < len(times):
+            reason = "it ran away" if solution.status == 1 else solution.message
             raise SimulationError(
                 f"{self.name}: the motion at {speed:g} m/s ended at sample {finite} of "
-                f"{len(times)}: {solution.message}",
+                f"{len(times)}: {reason}",
                 times[:finite],
                 states[:finite],
             )
