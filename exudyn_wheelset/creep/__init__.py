@@ -1,0 +1,25 @@
+"""Creep laws: from creepage, spin and contact patch to the forces that friction transmits.
+
+One law a module, all with the same kernel signature; `registry` knows them by name.
+"""
+
+from exudyn_wheelset.creep.kalker import kalker_coefficients
+from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
+from exudyn_wheelset.creep.registry import (
+    CREEP_LAWS,
+    creep_force,
+    creep_kernel,
+    creep_law,
+    creep_parameters,
+)
+
+__all__ = [
+    "CREEP_LAWS",
+    "CreepLaw",
+    "CreepParameter",
+    "creep_force",
+    "creep_kernel",
+    "creep_law",
+    "creep_parameters",
+    "kalker_coefficients",
+]
