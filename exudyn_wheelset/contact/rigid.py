@@ -313,8 +313,8 @@ def contact_geometry(
         raise WheelsetError("y and yaw must be finite numbers [m, rad]")
     if np.any(np.abs(yaws) > 0.3):
         raise WheelsetError(f"yaw up to {np.abs(yaws).max():g} rad: give radians within +-0.3")
-    shifts = np.ascontiguousarray(shifts)
-    yaws = np.ascontiguousarray(yaws)
+    shifts = np.array(shifts)
+    yaws = np.array(yaws)
     table = contact_tables(wheelset, track)
     size = len(shifts)
     roll, heights = np.zeros(size), np.zeros(size)

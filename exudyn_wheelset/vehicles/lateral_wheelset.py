@@ -1,0 +1,270 @@
+"""The paper's lateral model of a wheelset on springs to a frame, in its three codes.
+
+- `mohan`: small angles, Vermeulen-Johnson creep, cone on knife-edge rails;
+- `idealized`: large angles, Polach creep, cone on knife-edge rails;
+- `profiled`: large angles, Polach creep, real wheel and rail profiles.
+
+Springs k_x, k_y on either side at half distance b: lateral stiffness 2 k_y, yaw stiffness
+2 k_x b^2. Source: the paper's section 2.5, Table 1 and section 3; docs/table2.md gives what the
+paper leaves out and why it is set as it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.analyses.system import DynamicSystem
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
+from exudyn_wheelset.contact.rigid import contact_geometry
+from exudyn_wheelset.contact.piecewise import piecewise_geometry
+from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.creep import creep_law, creep_parameters
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.normal.hertz import hertz_from_load
+from exudyn_wheelset.profiles import Profile, load_profile, shapes
+from exudyn_wheelset.vehicles import lateral_kernel as kernel
+
+CODES = ("mohan", "idealized", "profiled")
+
+
+@dataclass(frozen=True)
+class LateralParameters:
+    """Parameters of the lateral model; the defaults are Table 1, set 1, and docs/table2.md.
+
+    mass [kg]; roll_inertia, spin_inertia, yaw_inertia [kg m^2] about x, y, z; radius r0 [m];
+    contact_half_distance g_a [m] (knife-edge codes); spring_half_distance b [m];
+    longitudinal_stiffness k_x, lateral_stiffness k_y [N/m] and longitudinal_damping,
+    lateral_damping [N s/m] of one side; conicity [-]; axle_load W_a [N] with the wheelset's
+    weight; friction [-]; shear_modulus [Pa]; poisson [-]; rail_head_radius [m], which gives the
+    knife-edge codes their contact ellipse.
+    """
+
+    mass: float = 1751.0
+    roll_inertia: float = 761.0
+    spin_inertia: float = 130.0
+    yaw_inertia: float = 761.0
+    radius: float = 0.3556
+    contact_half_distance: float = 0.716
+    spring_half_distance: float = 0.610
+    longitudinal_stiffness: float = 2.85e5
+    lateral_stiffness: float = 1.84e5
+    longitudinal_damping: float = 0.0
+    lateral_damping: float = 0.0
+    conicity: float = 0.05
+    axle_load: float = 150.0e3
+    friction: float = 0.3
+    shear_modulus: float = 80.0e9
+    poisson: float = 0.27
+    rail_head_radius: float = 0.3
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            may_vanish = name.endswith("damping") or name == "poisson"
+            if not np.isfinite(value) or value < 0.0 or (value == 0.0 and not may_vanish):
+                wanted = "zero or more" if may_vanish else "a positive number"
+                raise WheelsetError(f"{name} = {value!r}: give {wanted} (SI units)")
+        if self.poisson > 0.5:
+            raise WheelsetError(f"poisson = {self.poisson!r}: give a number from 0 to 0.5")
+
+
+# k_x, k_y [N/m] of Table 1.
+PAPER_SPRINGS = ((2.85e5, 1.84e5), (2.85e6, 1.84e6), (9.12e6, 5.84e6))
+
+
+def paper_parameters(spring_set: int, **changes: float) -> LateralParameters:
+    """Parameters of Table 1 with spring set 1, 2 or 3."""
+    if spring_set not in (1, 2, 3):
+        raise WheelsetError(f"spring_set = {spring_set!r}: Table 1 has the sets 1, 2 and 3")
+    k_x, k_y = PAPER_SPRINGS[spring_set - 1]
+    return replace(
+        LateralParameters(), longitudinal_stiffness=k_x, lateral_stiffness=k_y, **changes
+    )
+
+
+class LateralWheelset(DynamicSystem):
+    """The lateral model as a system of four states: y [m], yaw [rad] and their rates.
+
+    code: "mohan", "idealized" or "profiled". wheel, rail: profiles, names or paths, used by
+    `profiled` only, with gauge [m], gauge_depth [m], inclination and tape_half_distance [m].
+    creep: a law's name; None takes that of the code. gyroscopic, inertial: False leaves out the
+    spin's gyroscopic terms, or m z'' and I_x phi'' in (3) and (4). representation: "cubic" or
+    "polynomial" contact geometry (contact/piecewise.py).
+    Raises WheelsetError for an unknown code, ContactError for profiles that do not meet.
+    """
+
+    state_names = ("y [m]", "yaw [rad]", "y' [m/s]", "yaw' [rad/s]")
+    displacement_indices = (0, 1)
+
+    def __init__(
+        self,
+        code: str = "profiled",
+        parameters: LateralParameters | None = None,
+        *,
+        wheel: Profile | str = "AAR_1_20",
+        rail: Profile | str = "UIC60",
+        gauge: float = 1.432,
+        gauge_depth: float = 0.014,
+        inclination: float = 1.0 / 40.0,
+        tape_half_distance: float = 0.75,
+        creep: str | None = None,
+        gyroscopic: bool = True,
+        inertial: bool | None = None,
+        representation: str = "cubic",
+        free_spin: bool = False,
+        half_range: float = 0.012,
+        **law_parameters: float,
+    ) -> None:
+        if code not in CODES:
+            raise WheelsetError(f"code {code!r} is unknown: use one of {', '.join(CODES)}")
+        self.code = code
+        self.parameters = parameters or LateralParameters()
+        self.name = f"lateral wheelset, {code}"
+        self.scales = np.array([1e-3, 1e-3, 2e-2, 2e-2])
+        self.creep = creep or ("vermeulen-johnson" if code == "mohan" else "polach")
+        given = self.parameters
+        if code == "profiled":
+            wheel_profile, rail_profile = load_profile(wheel), load_profile(rail)
+            self.track = Track(rail_profile, gauge, gauge_depth, inclination)
+        else:
+            wheel_profile, rail_profile = shapes.cone(given.conicity), shapes.knife_edge()
+            tape_half_distance = given.contact_half_distance
+            self.track = Track(
+                rail_profile, inclination=0.0, datum_half_distance=given.contact_half_distance
+            )
+        self.wheelset = Wheelset(
+            mass=given.mass,
+            inertia=(given.roll_inertia, given.spin_inertia, given.yaw_inertia),
+            radius=given.radius,
+            wheel=wheel_profile,
+            tape_half_distance=tape_half_distance,
+        )
+        self.representation = representation
+        self.half_range = half_range
+        law = creep_law(self.creep).number
+        law_values = creep_parameters(self.creep, **law_parameters)
+        p = np.zeros(kernel.PARAMETER_COUNT)
+        p[kernel.MASS] = given.mass
+        p[kernel.ROLL_INERTIA] = given.roll_inertia
+        p[kernel.SPIN_INERTIA] = given.spin_inertia
+        p[kernel.YAW_INERTIA] = given.yaw_inertia
+        p[kernel.NOMINAL_RADIUS] = self._rolling_radius() if free_spin else given.radius
+        p[kernel.TAPE_HALF_DISTANCE] = tape_half_distance
+        p[kernel.AXLE_LOAD] = given.axle_load
+        p[kernel.LATERAL_STIFFNESS] = 2.0 * given.lateral_stiffness
+        p[kernel.YAW_STIFFNESS] = 2.0 * given.longitudinal_stiffness * given.spring_half_distance**2
+        p[kernel.LATERAL_DAMPING] = 2.0 * given.lateral_damping
+        p[kernel.YAW_DAMPING] = 2.0 * given.longitudinal_damping * given.spring_half_distance**2
+        p[kernel.FRICTION] = given.friction
+        p[kernel.SHEAR_MODULUS] = given.shear_modulus
+        p[kernel.POISSON] = given.poisson
+        p[kernel.LAW] = law
+        p[kernel.GYROSCOPIC] = float(gyroscopic)
+        p[kernel.INERTIAL] = float(code != "mohan" if inertial is None else inertial)
+        p[kernel.CONICITY] = given.conicity
+        if code != "profiled":
+            p[kernel.FIXED_LATERAL_CURVATURE] = 0.5 / given.rail_head_radius
+        p[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(law_values)] = law_values
+        self._p = p
+        self._sides = np.zeros((2, 12))
+
+    def _rolling_radius(self) -> float:
+        """Radius [m] on which the centred wheelset rolls: its spin is V over this radius.
+
+        Off the tape circle it differs from the nominal radius, and a spin of V/r0 would then
+        drag both wheels along with a creepage that no free wheelset has.
+        """
+        if self.code == "mohan":
+            return self.parameters.radius
+        return float(contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0])
+
+    @cached_property
+    def _geometry(self) -> tuple[np.ndarray, np.ndarray]:
+        """Breaks and coefficients of the kernel's columns over y."""
+        pieces = piecewise_geometry(
+            self.wheelset,
+            self.track,
+            half_range=self.half_range,
+            representation=self.representation,
+        )
+        curves = pieces.curves
+        cells = len(curves.x) - 1
+        table = np.zeros((curves.c.shape[0], cells, kernel.COLUMN_COUNT))
+        table[:, :, 0:2] = curves.c[:, :, 0:2]
+        width = np.diff(curves.x)
+        at = curves(curves.x)
+        half_curvatures = self._half_curvatures(curves.x, at[:, 0], at[:, 1])
+        for hand, start in enumerate((2, 6)):
+            base = 2 + kernel.SIDE_COLUMNS * hand
+            wheel_y, radius = curves.c[:, :, start], curves.c[:, :, start + 3]
+            table[:, :, base] = wheel_y
+            table[:, :, base + 1] = radius
+            # Within a cell of 0.05 mm slope and curvature are straight lines.
+            ends = curves(np.stack([curves.x[:-1], curves.x[1:]]))
+            slopes = -self.wheelset.wheel.slope(ends[:, :, start])
+            table[-1, :, base + 2] = slopes[0]
+            table[-2, :, base + 2] = (slopes[1] - slopes[0]) / width
+            table[-1, :, base + 3] = half_curvatures[:-1, hand]
+            table[-2, :, base + 3] = np.diff(half_curvatures[:, hand]) / width
+        return np.ascontiguousarray(curves.x), np.ascontiguousarray(table)
+
+    def _half_curvatures(self, y: np.ndarray, roll: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """B (n, 2) [1/m] averaged over a patch under the static load, left and right."""
+        given = self.parameters
+        approach = hertz_from_load(
+            0.5 / given.radius,
+            0.5 / given.rail_head_radius,
+            0.5 * given.axle_load,
+            given.shear_modulus,
+            given.poisson,
+        )[2]
+        return patch_half_curvatures(
+            contact_tables(self.wheelset, self.track), y, roll, z, approach
+        )
+
+    def derivative(self, state: np.ndarray, speed: float) -> np.ndarray:
+        state = np.ascontiguousarray(state, dtype=float)
+        self._sides[:, 0] = 0.0
+        if self.code == "mohan":
+            accelerations = kernel.small_angle_accelerations(state, speed, self._p, self._sides)
+        else:
+            breaks, coefficients = self._geometry
+            accelerations = kernel.lateral_accelerations(
+                state, speed, self._p, breaks, coefficients, self._sides
+            )
+        return np.array([state[2], state[3], *accelerations])
+
+    def contact_state(self, state: np.ndarray, speed: float) -> dict[str, np.ndarray]:
+        """Forces, creepages and patches (left, right) at a state, by name."""
+        self.derivative(state, speed)
+        names = (
+            "normal_force",
+            "fx",
+            "fy",
+            "mz",
+            "creep_x",
+            "creep_y",
+            "spin",
+            "a",
+            "b",
+            "angle",
+            "radius",
+            "wheel_y",
+        )
+        return {name: self._sides[:, k].copy() for k, name in enumerate(names)}
+
+    def measures(self) -> dict[str, Any]:
+        settings = {
+            "code": self.code,
+            "creep": self.creep,
+            "representation": self.representation,
+            "wheel": self.wheelset.wheel.name,
+            "rail": self.track.rail.name,
+            "gauge": self.track.gauge,
+            "inclination": self.track.inclination,
+        }
+        return {**super().measures(), "parameters": {**asdict(self.parameters), **settings}}
