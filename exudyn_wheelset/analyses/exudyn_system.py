@@ -254,7 +254,7 @@ class ExudynSystem(DynamicSystem):
 
     def measures(self) -> dict[str, Any]:
         record = super().measures()
-        record["versions"]["exudyn"] = exu.GetVersionString()
+        record["versions"]["exudyn"] = exu.__version__
         return {
             **record,
             "parameters": self.parameters,

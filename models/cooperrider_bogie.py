@@ -1,0 +1,140 @@
+"""The Cooperrider bogie of Kaas-Petersen: linear and nonlinear critical speed, hunting amplitudes.
+
+Run `python models/cooperrider_bogie.py`; with `--json` it prints only its numbers:
+
+    hopf          linear critical speed [m/s]: the straight run loses stability
+    fold          nonlinear critical speed [m/s]: the branch of limit cycles turns, below it the
+                  bogie does not hunt
+    amplitude_mm  lateral amplitude of the leading wheelset (half of peak to peak) [mm] of the
+                  stable limit cycle, by speed in m/s
+
+`--descent` finds the fold a second time by simulating quasi-static descent, `--reference` takes
+the equations written out without Exudyn, `--out` keeps the bifurcation diagram and its data.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from exudyn_wheelset.analyses.branch import Branch
+from exudyn_wheelset.analyses.limit_cycles import limit_cycles
+from exudyn_wheelset.analyses.linear import CriticalPoint, linear_critical_speed
+from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.analyses.system import DynamicSystem
+from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES, cooperrider_system
+from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
+
+LEADING_WHEELSET = STATE_NAMES[0]
+SEARCHED_SPEEDS = (20.0, 120.0)
+BRANCH_SPEEDS = (55.0, 80.0)
+# The flange's corner keeps the orbit from being smooth: with 30, 50, 80, 120 intervals the fold
+# lies at 66.658, 66.655, 66.656, 66.656 m/s.
+INTERVALS = 80
+
+
+def run(
+    system: DynamicSystem | None = None,
+    speeds: Sequence[float] = (70.0, 75.0),
+    progress: bool = False,
+) -> tuple[dict[str, Any], CriticalPoint, Branch]:
+    """The numbers of the header for amplitudes at `speeds` [m/s], the Hopf point, the branch."""
+    system = system or cooperrider_system()
+    hopf = linear_critical_speed(system, *SEARCHED_SPEEDS)
+    low, high = BRANCH_SPEEDS
+    branch = limit_cycles(
+        system,
+        hopf,
+        (low, max(high, *speeds) + 1.0),
+        intervals=INTERVALS,
+        progress=progress,
+    )
+    amplitudes = {}
+    for speed in speeds:
+        found = branch.amplitudes_at(speed, LEADING_WHEELSET, stable=True)
+        amplitudes[f"{speed:g}"] = float(found.max() * 1e3) if len(found) else None
+    lowest = [fold.speed for fold in branch.folds if fold.side == "lowest"]
+    numbers = {
+        "hopf": float(hopf),
+        "fold": min(lowest) if lowest else None,
+        "amplitude_mm": amplitudes,
+    }
+    return numbers, hopf, branch
+
+
+def main(argv: Sequence[str] | None = None) -> dict[str, Any]:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--json", action="store_true", help="print the numbers only")
+    parser.add_argument("--speeds", type=float, nargs="+", default=[70.0, 75.0], metavar="M/S")
+    parser.add_argument("--descent", action="store_true", help="find the fold by descent as well")
+    parser.add_argument("--reference", action="store_true", help="equations without Exudyn")
+    parser.add_argument("--out", type=Path, help="directory for the diagram and its data")
+    arguments = parser.parse_args(argv)
+
+    system = cooperrider_reference_system() if arguments.reference else cooperrider_system()
+    progress = not arguments.json
+    numbers, hopf, branch = run(system, arguments.speeds, progress)
+    if arguments.descent:
+        descent = nonlinear_critical_speed(system, "descent", hopf=hopf, progress=progress)
+        numbers["fold_by_descent"] = float(descent)
+    if arguments.out:
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        branch.save(arguments.out / "cooperrider_bogie.npz")
+        _replace(arguments.out / "cooperrider_bogie.json", lambda to: _write(numbers, to))
+        _replace(arguments.out / "cooperrider_bogie.png", lambda to: _draw(branch, to))
+    if arguments.json:
+        print(json.dumps(numbers))
+    else:
+        _print_table(numbers, hopf)
+    return numbers
+
+
+def _print_table(numbers: dict[str, Any], hopf: CriticalPoint) -> None:
+    fold = numbers["fold"]
+    rows = [
+        ("linear critical speed (Hopf)", f"{numbers['hopf']:.3f} m/s at {hopf.frequency:.3f} Hz"),
+        ("nonlinear critical speed (fold)", "none" if fold is None else f"{fold:.3f} m/s"),
+    ]
+    if "fold_by_descent" in numbers:
+        rows.append(("the same by descent", f"{numbers['fold_by_descent']:.3f} m/s"))
+    for speed, amplitude in numbers["amplitude_mm"].items():
+        text = "no stable cycle" if amplitude is None else f"{amplitude:.3f} mm"
+        rows.append((f"leading wheelset at {speed} m/s", text))
+    for what, value in rows:
+        print(f"{what:34s}{value}")
+
+
+def _draw(branch: Branch, path: Path) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(7.0, 4.5))
+    branch.plot(axes, LEADING_WHEELSET, factor=1e3)
+    axes.set_ylabel("lateral amplitude of the leading wheelset [mm]")
+    axes.set_title("Cooperrider bogie")
+    axes.grid(alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120, format="png")
+    plt.close(figure)
+
+
+def _write(numbers: dict[str, Any], path: Path) -> None:
+    path.write_text(json.dumps(numbers, indent=2) + "\n", encoding="utf-8")
+
+
+def _replace(path: Path, write: Callable[[Path], None]) -> None:
+    """Write a file whole or not at all."""
+    part = path.with_name(path.name + ".part")
+    write(part)
+    os.replace(part, path)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
