@@ -31,6 +31,9 @@ from exudyn_wheelset.errors import AnalysisError, WheelsetError
 
 DEGREE = 4
 INTERVALS = 30
+# One-sided difference step in scales: it leaves 1e-6 in a Jacobian, which moves no orbit (the
+# defects are exact) and a multiplier by as little; a contact search resolves a nanometre.
+FORWARD_STEP = 1e-6
 
 
 class OrbitError(AnalysisError):
@@ -189,8 +192,42 @@ class Direction:
     period: float
     speed: float
 
+    def vector(self) -> Array:
+        """All components in one vector."""
+        return np.concatenate([self.orbit.ravel(), [self.period, self.speed]])
+
+    @classmethod
+    def from_vector(cls, vector: Array, shape: tuple[int, ...]) -> Direction:
+        """The inverse of `vector`, for windows of a shape (N, m + 1, n)."""
+        return cls(vector[:-2].reshape(shape), float(vector[-2]), float(vector[-1]))
+
     def __mul__(self, factor: float) -> Direction:
         return Direction(factor * self.orbit, factor * self.period, factor * self.speed)
+
+
+@dataclass(frozen=True, eq=False)
+class Gradients:
+    """f (k, n), df/dx (k, n, n) and df/dV (k, n), in scales, at phases (k,) of an orbit."""
+
+    phases: Array
+    rates: Array
+    by_state: Array
+    by_speed: Array
+
+    def on_mesh(self, mesh: Array, degree: int) -> Gradients:
+        """Interpolated linearly to the Gauss points of another mesh: good for Newton's steps,
+        not for Floquet multipliers."""
+        wanted = (mesh[:-1, None] + np.diff(mesh)[:, None] * _basis(degree).gauss).ravel()
+        phases = np.concatenate([[self.phases[-1] - 1.0], self.phases, [self.phases[0] + 1.0]])
+        right = np.searchsorted(phases, wanted)
+        weight = (wanted - phases[right - 1]) / (phases[right] - phases[right - 1])
+
+        def moved(values: Array) -> Array:
+            periodic = np.concatenate([values[-1:], values, values[:1]])
+            share = weight.reshape(-1, *[1] * (values.ndim - 1))
+            return (1.0 - share) * periodic[right - 1] + share * periodic[right]
+
+        return Gradients(wanted, moved(self.rates), moved(self.by_state), moved(self.by_speed))
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,11 +237,13 @@ class Condensed:
     inverse      (N, m n, m n) of the blocks of interior values
     propagation  (N, m n, n): interior values from the interval's first one
     points       (N, m + 1, n, n + 2): every value from q
+    gradients    what they were assembled from
     """
 
     inverse: Array
     propagation: Array
     points: Array
+    gradients: Gradients
 
     @property
     def monodromy(self) -> Array:
@@ -248,8 +287,9 @@ class Condensed:
 class Collocation:
     """The collocation equations of a system, with a count of what they cost.
 
-    period_unit and speed_unit measure the changes of T and V. `evaluations` counts right-hand
-    sides, `jacobians` Jacobian matrices of f (each 2 n right-hand sides by differences).
+    period_unit and speed_unit measure the changes of T and V. A system without Jacobians of its
+    own is differentiated by n one-sided differences a point, f being known there. `evaluations`
+    counts right-hand sides, those of differences included, `jacobians` Jacobian matrices of f.
     """
 
     def __init__(self, system: DynamicSystem, period_unit: float, speed_unit: float) -> None:
@@ -259,6 +299,10 @@ class Collocation:
         self.speed_unit = float(speed_unit)
         self.evaluations = 0
         self.jacobians = 0
+        kind = type(system)
+        self._differences = (
+            kind.jacobian is DynamicSystem.jacobian and kind.jacobians is DynamicSystem.jacobians
+        )
 
     def windows(self, orbit: Orbit) -> Array:
         """States of each interval (N, m + 1, n) in scales."""
@@ -327,36 +371,41 @@ class Collocation:
 
     def condense(self, orbit: Orbit) -> Condensed:
         """Newton's equations at the orbit: one Jacobian of f at every Gauss point."""
-        basis = _basis(orbit.degree)
-        intervals, degree, size = len(orbit.mesh) - 1, orbit.degree, len(self.scales)
-        widths = np.diff(orbit.mesh)
+        return self.assemble(orbit, self.gradients(orbit))
+
+    def gradients(self, orbit: Orbit) -> Gradients:
+        """f and its derivatives at the Gauss points of an orbit; raises OrbitError."""
         states = self._gauss_states(orbit)
-        try:
-            jacobians = np.asarray(self.system.jacobians(states, orbit.speed))
-        except WheelsetError as error:
-            raise OrbitError(f"at {orbit.speed:.4f} m/s: {error}", contact_lost=True) from error
-        self.jacobians += len(states)
-        if not np.all(np.isfinite(jacobians)):
-            raise OrbitError(
-                f"the Jacobian is not finite on the orbit at {orbit.speed:.4f} m/s",
-                contact_lost=True,
-            )
-        jacobians = jacobians * (self.scales[None, None, :] / self.scales[None, :, None])
-        jacobians *= orbit.period * np.repeat(widths, degree)[:, None, None]
-        jacobians = jacobians.reshape(intervals, degree, size, size)
         step = DIFFERENCE_STEP * max(1.0, abs(orbit.speed))
         rates = self._rates(states, orbit.speed)
-        speed_slopes = self._rates(states, orbit.speed + step)
-        speed_slopes = (speed_slopes - self._rates(states, orbit.speed - step)) / (2.0 * step)
+        if self._differences:
+            by_state = self._forward_differences(states, orbit.speed, rates)
+        else:
+            by_state = self._jacobians(states, orbit.speed)
+        by_speed = self._rates(states, orbit.speed + step)
+        by_speed = (by_speed - self._rates(states, orbit.speed - step)) / (2.0 * step)
+        basis = _basis(orbit.degree)
+        phases = orbit.mesh[:-1, None] + np.diff(orbit.mesh)[:, None] * basis.gauss
+        return Gradients(phases.ravel(), rates, by_state, by_speed)
 
+    def assemble(self, orbit: Orbit, gradients: Gradients) -> Condensed:
+        """Newton's equations from gradients given at the Gauss points of the orbit.
+
+        Raises OrbitError if an interval's equations are singular.
+        """
+        basis = _basis(orbit.degree)
+        intervals, degree, size = len(orbit.mesh) - 1, orbit.degree, len(self.scales)
+        widths = np.repeat(np.diff(orbit.mesh), degree)
+        jacobians = gradients.by_state * (orbit.period * widths)[:, None, None]
+        jacobians = jacobians.reshape(intervals, degree, size, size)
         full = -np.einsum("kj,ikab->ikajb", basis.values, jacobians)
         for component in range(size):
             full[:, :, component, :, component] += basis.slopes
         full = full.reshape(intervals, degree * size, (degree + 1) * size)
-        columns = np.repeat(widths, degree)[:, None] * rates * self.period_unit
+        columns = widths[:, None] * gradients.rates * self.period_unit
         by_period = -columns.reshape(intervals, -1, 1)
-        columns = np.repeat(widths, degree)[:, None] * speed_slopes * orbit.period
-        by_speed = -(columns * self.speed_unit).reshape(intervals, -1, 1)
+        columns = widths[:, None] * gradients.by_speed * (orbit.period * self.speed_unit)
+        by_speed = -columns.reshape(intervals, -1, 1)
         try:
             inverse = np.linalg.inv(full[:, :, size:])
         except np.linalg.LinAlgError as error:
@@ -371,7 +420,7 @@ class Collocation:
             inner[:, size:] += influence[index, :, size:]
             points[index, 1:] = inner.reshape(degree, size, size + 2)
             start = points[index, -1]
-        return Condensed(inverse, influence[:, :, :size], points)
+        return Condensed(inverse, influence[:, :, :size], points, gradients)
 
     def multipliers(self, orbit: Orbit, condensed: Condensed) -> tuple[Array, float]:
         """Floquet multipliers (n - 1,) by falling size, and the error of the trivial one.
@@ -388,6 +437,27 @@ class Collocation:
         values = np.linalg.eigvals(across.T @ matrix @ across)
         order = np.argsort(-np.abs(values), kind="stable")
         return values[order], float(np.linalg.norm(matrix @ along - along))
+
+    def _jacobians(self, states: Array, speed: float) -> Array:
+        self.jacobians += len(states)
+        try:
+            jacobians = np.asarray(self.system.jacobians(states, speed))
+        except WheelsetError as error:
+            raise OrbitError(f"at {speed:.4f} m/s: {error}", contact_lost=True) from error
+        if not np.all(np.isfinite(jacobians)):
+            raise OrbitError(
+                f"the Jacobian is not finite on the orbit at {speed:.4f} m/s", contact_lost=True
+            )
+        return jacobians * (self.scales[None, None, :] / self.scales[None, :, None])
+
+    def _forward_differences(self, states: Array, speed: float, rates: Array) -> Array:
+        self.jacobians += len(states)
+        result = np.empty((*rates.shape, len(self.scales)))
+        for column, scale in enumerate(self.scales):
+            shifted = states.copy()
+            shifted[:, column] += FORWARD_STEP * scale
+            result[:, :, column] = (self._rates(shifted, speed) - rates) / FORWARD_STEP
+        return result
 
     def _gauss_states(self, orbit: Orbit) -> Array:
         windows = _windows(orbit.states, orbit.degree)
@@ -427,17 +497,20 @@ def solve_orbit(
     condensed: Condensed | None = None,
     reference: Orbit | None = None,
     tolerance: float = 1e-9,
-    iterations: int = 20,
-    contraction: float = 0.5,
+    iterations: int = 25,
+    contraction: float = 0.6,
 ) -> Solution:
     """Periodic orbit near `guess` on which `row` of (orbit - guess) has the value `target`.
 
-    Newton with `condensed` kept from step to step while each correction is at most `contraction`
-    times the one before; else the Jacobians are computed anew, and a full Newton step that does
-    not reduce the defects is halved. Converged when the correction, relative to the size of the
-    orbit, is below `tolerance` (in the largest component). Raises OrbitError.
+    Newton's method with the equations `condensed` at a neighbour: from step to step they are kept
+    and corrected by Broyden's rank-one formula (Kelley, Iterative Methods for Linear and
+    Nonlinear Equations, SIAM 1995, section 7.3). Only when a correction is larger than
+    `contraction` times the one before are the Jacobians computed anew. A step that does not
+    reduce the defects is halved. Converged when the correction, relative to the size of the orbit,
+    is below `tolerance` (in the largest component). Raises OrbitError.
     """
-    phase = equations.phase(reference or guess)
+    reference = reference or guess
+    phase = equations.phase(reference)
     orbit = guess
     defects = equations.defects(orbit)
     fresh = condensed is None
@@ -447,36 +520,52 @@ def solve_orbit(
         refreshed = 1
     size = max(equations.size(guess), 1e-12)
     previous = np.inf
+    steps: list[Direction] = []
     for iteration in range(1, iterations + 1):
         moved = equations.difference(orbit, guess)
-        values = [0.0, target - row(moved.orbit, moved.period, moved.speed)]
-        if reference is not None:
-            apart = equations.difference(orbit, reference)
-            values[0] = -phase(apart.orbit, 0.0, 0.0)
-        else:
-            values[0] = -phase(moved.orbit, 0.0, 0.0)
-        step = condensed.solve(defects, [phase, row], values)
+        apart = equations.difference(orbit, reference)
+        values = [
+            -phase(apart.orbit, 0.0, 0.0),
+            target - row(moved.orbit, moved.period, moved.speed),
+        ]
+        step = _broyden(condensed.solve(defects, [phase, row], values), steps)
         length = _relative_size(step, size, orbit, equations)
         if not np.isfinite(length):
             raise OrbitError("Newton's correction is not finite")
         if length < tolerance:
             return Solution(equations.moved(orbit, step), condensed, iteration, refreshed)
         if not fresh and length > contraction * previous:
+            # Rounding of f, or a corner of f that is crossed to and fro, sets a floor.
+            if length < 1e3 * tolerance and refreshed:
+                return Solution(orbit, condensed, iteration, refreshed)
             condensed = equations.condense(orbit)
             refreshed += 1
             fresh = True
             previous = np.inf
+            steps = []
             continue
-        # Rounding of f, or a corner of f that is crossed to and fro, sets a floor.
-        if length > 0.5 * previous and length < 1e3 * tolerance:
-            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed)
-        orbit, defects = _damped(equations, orbit, defects, step, length)
+        orbit, defects, factor = _damped(equations, orbit, defects, step, length)
+        steps = [*steps, step] if factor == 1.0 else []
         previous = length
         fresh = False
     raise OrbitError(
         f"Newton did not converge in {iterations} steps at {orbit.speed:.4f} m/s; the last "
         f"correction was {previous:.2g} of the orbit"
     )
+
+
+def _broyden(step: Direction, steps: list[Direction]) -> Direction:
+    """The correction by the kept equations, improved by what the steps before have shown."""
+    vector = step.vector()
+    for index, taken in enumerate(steps):
+        before = taken.vector()
+        square = float(before @ before)
+        share = float(before @ vector) / square
+        if index + 1 < len(steps):
+            vector = vector + share * steps[index + 1].vector()
+        elif share < 0.9:
+            vector = vector / (1.0 - share)
+    return Direction.from_vector(vector, step.orbit.shape)
 
 
 def speed_row(orbit: Orbit, size: int) -> Functional:
@@ -495,7 +584,7 @@ def _relative_size(step: Direction, size: float, orbit: Orbit, equations: Colloc
 
 def _damped(
     equations: Collocation, orbit: Orbit, defects: Array, step: Direction, length: float
-) -> tuple[Orbit, Array]:
+) -> tuple[Orbit, Array, float]:
     """The orbit after a step, halved while it makes the defects grow or leaves the model."""
     before = float(np.linalg.norm(defects))
     factor = 1.0
@@ -510,7 +599,7 @@ def _damped(
             else:
                 # Near the solution the defects may be rounding: small steps are taken whole.
                 if length < 1e-3 or factor < 0.1 or np.linalg.norm(after) < 2.0 * before:
-                    return trial, after
+                    return trial, after, factor
         elif factor < 0.1:
             raise OrbitError("Newton's correction makes the period negative")
         factor *= 0.5

@@ -71,7 +71,7 @@ class ContinuationSettings:
     adapt_every: int = 4
     maximum_points: int = 200
     amplitude_limits: tuple[tuple[str, float], ...] = ()
-    fold_tolerance: float = 1e-7
+    fold_tolerance: float = 1e-6
     stability_margin: float = 1e-5
 
     def __post_init__(self) -> None:
@@ -322,9 +322,10 @@ class _Follower:
         below, above = left.tangent.speed, right.tangent.speed
         start, best = left, left if abs(below) < abs(above) else right
         weights = [below, above]
-        goal = settings.fold_tolerance * max(1.0, abs(left.orbit.speed)) / equations.speed_unit
+        goal = settings.fold_tolerance * max(1.0, abs(left.orbit.speed))
         last_side = 0
-        for _ in range(30):
+        quiet, previous = 0, np.inf
+        for _ in range(20):
             where = (lower * weights[1] - upper * weights[0]) / (weights[1] - weights[0])
             guess = equations.moved(left.orbit, left.tangent, where)
             if start is not left:
@@ -338,8 +339,10 @@ class _Follower:
             except OrbitError:
                 break
             best, slope = start, start.tangent.speed
-            sharp = abs(slope) < 1e-6 * (abs(below) + abs(above)) or upper - lower < 1e-4 * length
-            if sharp and abs(slope) * (upper - lower) < goal:
+            # Where f has corners the slope jumps about zero, but the speed settles all the same.
+            quiet = quiet + 1 if abs(best.orbit.speed - previous) < goal else 0
+            previous = best.orbit.speed
+            if abs(slope) < 1e-6 * (abs(below) + abs(above)) or quiet > 1:
                 break
             if slope * below > 0.0:
                 lower, weights[0] = where, slope
@@ -354,16 +357,14 @@ class _Follower:
         self._keep(self._point(best, is_fold=True))
 
     def _adapt(self) -> None:
-        """Move the base to a mesh that spreads the error, if the Jacobians there exist."""
+        """Move the base to a mesh that spreads the error, with its Jacobians interpolated."""
         equations, base = self.equations, self.base
         mesh = balanced_mesh(base.orbit, equations.scales)
         orbit = base.orbit.on_mesh(mesh)
-        flat = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
-        row = equations.inner(mesh, equations.difference(flat, orbit))
-        try:
-            self.base = self._base(orbit, equations.condense(orbit), row)
-        except OrbitError:
-            return
+        ahead = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
+        tangent = _unit(equations, mesh, equations.difference(ahead, orbit))
+        gradients = base.condensed.gradients.on_mesh(mesh, orbit.degree)
+        self.base = _Base(orbit, equations.assemble(orbit, gradients), tangent)
 
     def _over_limits(self, orbit: Orbit, size: float) -> str:
         settings = self.settings
