@@ -8,10 +8,10 @@ the contact normal; a along x, b along y):
 
 Between the nodes of the table: linear in g = min(a/b, b/a) for each Poisson number, then
 parabolic in 1/C over the Poisson number, as the program CONTACT does. The coefficients are
-continuous everywhere; their slope over a/b jumps at the nodes g = 0.1, 0.2, ... 1 (by up to a
-third of the slope itself, at g = 0.2 with b < a). For g <= 0.08 the asymptotes hold as they
-stand; between 0.08 and 0.1 the ratio of table to asymptote at g = 0.1 fades in smoothly, where
-CONTACT jumps (at nu = 0.28 by up to 6 %).
+continuous everywhere; their slope over a/b jumps at the nodes g = 0.1, 0.2, ... 1 (most for b < a:
+three times as steep below g = 0.2 as above it). For g <= 0.08 the asymptotes hold as they stand;
+between 0.08 and 0.1 the ratio of table to asymptote at g = 0.1 fades out smoothly. CONTACT goes
+over to the asymptotes there with a jump, at nu = 0.28 of 6 % in C23 (a < b) and 4 % in C11 (b < a).
 """
 
 from __future__ import annotations
