@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline, CubicSpline, make_interp_spline
-from scipy.linalg import solveh_banded
+from scipy.linalg import LinAlgError, solveh_banded
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import ProfileError
@@ -96,12 +96,23 @@ def smoothed_points(t: FloatArray, points: FloatArray, rms_distance: float) -> F
         )
 
     # lambda has the unit m^3: the cube of a length between a fraction of a step and many spans.
-    low, high = 3.0 * np.log(1e-3 * h.min()), 3.0 * np.log(1e2 * t[-1])
+    # It is raised step by step, because the equations lose their digits long before its end.
+    low, end = 3.0 * np.log(1e-3 * h.min()), 3.0 * np.log(1e2 * t[-1])
     if excess(low) >= 0.0:
         return points
-    if excess(high) <= 0.0:
-        return points - displacement(high)
-    return points - displacement(float(brentq(excess, low, high, xtol=1e-4)))
+    while low < end:
+        high = min(low + 7.0, end)
+        try:
+            reached = excess(high) >= 0.0
+        except LinAlgError:
+            raise ProfileError(
+                f"smoothing = {rms_distance:g} m is too much for {len(t)} points so close together;"
+                " smooth less or thin the points out"
+            ) from None
+        if reached:
+            return points - displacement(float(brentq(excess, low, high, xtol=1e-4)))
+        low = high
+    return points - displacement(end)
 
 
 def fit_curve(points: FloatArray, smoothing: float) -> BSpline:

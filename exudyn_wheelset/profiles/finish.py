@@ -26,7 +26,7 @@ IntArray = NDArray[np.int64]
 
 _CLOSEST = 1e-9
 _GREATEST_SPAN = 0.3
-_MOST_POINTS = 200_000
+_MOST_POINTS = 50_000
 _DATUM_SHIFT = 5e-3
 _STEEP = 3.0
 
@@ -99,7 +99,7 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
         y, z = _oriented(y, z, kind, raw, remarks)
     y, z = _shifted(y, z, kind, raw, options.shift, remarks)
     try:
-        return Profile(
+        profile = Profile(
             raw.name or stem,
             kind,
             y,
@@ -108,6 +108,9 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
             smoothing=options.smoothing,
             remarks=remarks,
         )
+        # Asked for here, so that points which allow no such curve are refused with their file.
+        profile.span  # noqa: B018
+        return profile
     except ProfileError as error:
         message = str(error).removeprefix(f"{raw.name or stem}: ")
         raise fault(label, place, message) from None

@@ -304,7 +304,8 @@ def check_kind(name: str, kind: str, y: FloatArray, z: FloatArray) -> None:
                 f"{name}: y reaches from {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm and leaves out "
                 "the tape circle y = 0; shift the profile so that y = 0 lies on the tape circle"
             )
-        if z[top] > 0.015 and z[top] > -z[lowest]:
+        datum = float(np.interp(0.0, y, z))
+        if z[top] - datum > max(0.015, datum - z[lowest]):
             side = "" if y[top] < 0.0 else " and mirror y"
             raise ProfileError(
                 f"{name}: the flange points up (z = {1e3 * z[top]:.2f} mm at "
@@ -316,7 +317,6 @@ def check_kind(name: str, kind: str, y: FloatArray, z: FloatArray) -> None:
                 f"{name}: the lowest point lies at y = {1e3 * y[lowest]:.2f} mm, on the field "
                 "side; the flange belongs to y < 0: mirror y"
             )
-        datum = float(np.interp(0.0, y, z))
         if abs(datum) > _DATUM_TOLERANCE:
             raise ProfileError(
                 f"{name}: z = {1e3 * datum:.2f} mm at the tape circle y = 0; it is 0 there: shift z"

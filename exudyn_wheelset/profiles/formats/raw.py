@@ -38,7 +38,8 @@ _NUMBER = re.compile(
 )
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LARGEST_NUMBER = 1e7
-_MOST_BYTES = 20_000_000
+_MOST_BYTES = 5_000_000
+_MOST_LINES = 100_000
 
 
 @dataclass
@@ -83,7 +84,9 @@ def fault(label: str, line: int | None, message: str) -> ProfileError:
 def decode(data: bytes, label: str) -> tuple[str, list[str]]:
     """The text of a file and remarks on its encoding; ProfileError for binary or empty files."""
     if len(data) > _MOST_BYTES:
-        raise ProfileError(f"{label}: {len(data)} bytes; a profile file has less than 20 MB")
+        raise ProfileError(f"{label}: {len(data)} bytes; a profile file has less than 5 MB")
+    if data.count(b"\n") + data.count(b"\r") > 2 * _MOST_LINES:
+        raise ProfileError(f"{label}: more than {_MOST_LINES} lines; thin the points out")
     if not data.strip():
         raise ProfileError(f"{label}: the file is empty; it needs at least 8 lines with y and z")
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
