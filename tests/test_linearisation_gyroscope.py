@@ -192,6 +192,7 @@ def test_cyclic_positions_are_left_out():
     start = system.initial_state(12.0)
     assert start[system.state_names.index("vx [m/s]")] == 12.0
     assert start[system.state_names.index("wy [rad/s]")] == 24.0
+    np.testing.assert_allclose(system.carry_over(start, 12.0, 20.0), system.initial_state(20.0))
 
 
 def test_what_cannot_be_treated_is_named():
@@ -199,6 +200,10 @@ def test_what_cannot_be_treated_is_named():
         rotor(node_type=exu.NodeType.RotationEulerParameters, spins=False)
     with pytest.raises(AnalysisError, match="cannot spin"):
         rotor(node_type=exu.NodeType.RotationRxyz)
+    with pytest.raises(AnalysisError, match="cyclic names 6, the model has 0, 1"):
+        rotor(cyclic=[6])
+    with pytest.raises(AnalysisError, match="part of the rotation vector"):
+        rotor(cyclic=[4])
     with pytest.raises(AnalysisError, match="no solver type 'RK45'"):
         rotor(solver_type="RK45")
     with pytest.raises(AnalysisError, match="11 states: x"):

@@ -20,30 +20,14 @@ import numpy as np
 from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
-from exudyn_wheelset.analyses.reduction import (
-    CYCLIC,
-    ROTATION,
-    expand_state,
-    reduce_coordinates,
-    state_rate,
-)
+from exudyn_wheelset.analyses.exudyn_layout import lay_out
+from exudyn_wheelset.analyses.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.analyses.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.errors import AnalysisError
 
 # Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
 DISPLACEMENT_SCALE = 1.0e-3
 VELOCITY_SCALE = 1.0e-2
-
-_ROTATION_VECTOR_NODE = "RigidBodyRotVecLG"
-_RIGID_BODY_POSITIONS = ("x [m]", "y [m]", "z [m]", "yaw [rad]", "roll [rad]", "pitch [rad]")
-_RIGID_BODY_VELOCITIES = (
-    "vx [m/s]",
-    "vy [m/s]",
-    "vz [m/s]",
-    "wx [rad/s]",
-    "wy [rad/s]",
-    "wz [rad/s]",
-)
 
 
 class ExudynSystem(DynamicSystem):
@@ -108,10 +92,24 @@ class ExudynSystem(DynamicSystem):
         mbs.Assemble()
         self._data: Any = mbs.systemData
         self._initialise_solver()
-        self._lay_out(dict(_as_mapping(spinning_nodes)), dict(_as_mapping(cyclic)))
+        layout = lay_out(
+            mbs,
+            [node for node, *_ in self._sensors],
+            _as_mapping(spinning_nodes),
+            _as_mapping(cyclic),
+            name,
+        )
+        self._positions = layout.positions
+        self._position_of = layout.position_of
+        self._rotations = layout.rotations
+        self._reference = layout.reference
+        self._steady_velocities = layout.steady_velocities
+        self._coordinates = np.zeros(self._order2)
+        self._velocities = np.zeros(self._order2)
+        self._first_order = np.zeros(self._order1)
 
-        size = len(self._automatic_names)
-        self.state_names = tuple(state_names or self._automatic_names)
+        size = len(layout.names)
+        self.state_names = tuple(state_names or layout.names)
         if scales is None:
             scales = [DISPLACEMENT_SCALE] * self._positions + [VELOCITY_SCALE] * self._order2
             scales += [VELOCITY_SCALE] * self._order1
@@ -120,7 +118,7 @@ class ExudynSystem(DynamicSystem):
             if length != size:
                 raise AnalysisError(
                     f"{name}: {what} has {length} entries, the system has {size} states: "
-                    f"{', '.join(self._automatic_names)}"
+                    f"{', '.join(layout.names)}"
                 )
         if displacement_indices is None:
             displacement_indices = range(self._positions)
@@ -133,8 +131,9 @@ class ExudynSystem(DynamicSystem):
         Raises AnalysisError with the words of a user function that gave up.
         """
         self._use_speed(speed)
+        state = np.ascontiguousarray(state, dtype=float)
         expand_state(
-            np.ascontiguousarray(state, dtype=float),
+            state,
             self._position_of,
             self._rotations,
             self._reference,
@@ -211,6 +210,13 @@ class ExudynSystem(DynamicSystem):
     def equilibrium(self, speed: float, guess: Array | None = None) -> Array:
         """Steady state (n,) at a forward speed [m/s]; the guess defaults to `initial_state`."""
         return super().equilibrium(speed, self.initial_state(speed) if guess is None else guess)
+
+    def carry_over(self, state: Array, speed: float, new_speed: float) -> Array:
+        """The state with the steady spin and forward velocities moved on to `new_speed`."""
+        state = np.array(state, dtype=float)
+        for index, ratio in self._steady_velocities:
+            state[self._positions + index] += ratio * (new_speed - speed)
+        return state
 
     def simulate(self, state: Array, speed: float, times: Array) -> Array:
         """Motion from `state` (n,) at times[0] by Exudyn's own solver, at `times` (m,) [s].
@@ -304,56 +310,6 @@ class ExudynSystem(DynamicSystem):
                 f"{self.name}: the model has {self._data.DataSize()} data coordinates (friction "
                 "or contact memory); their state is hidden from the analysis: leave them out"
             )
-
-    def _lay_out(self, spinning: dict[int, float], cyclic: dict[int, float]) -> None:
-        mbs, data = self.mbs, self._data
-        position_of = np.full(self._order2, CYCLIC, dtype=np.int64)
-        position_names: list[str] = []
-        velocity_names = [""] * self._order2
-        rotations: list[tuple[int, int, int]] = []
-        reference: list[Array] = []
-        first_order_names: list[str] = []
-        self._steady_velocities = list(cyclic.items())
-        nodes = [(node, np.array(data.GetNodeLTGODE2(node))) for node, *_ in self._sensors]
-        moving = sum(len(indices) > 0 for _, indices in nodes)
-        for node, indices in nodes:
-            description = mbs.GetNode(node)
-            prefix = f"{description['name'].removeprefix('Node:')}: " if moving > 1 else ""
-            rigid = description["nodeType"] == _ROTATION_VECTOR_NODE
-            if node in spinning and not rigid:
-                raise AnalysisError(
-                    f"{self.name}: node {node} ({description['nodeType']}) cannot spin; create "
-                    "the body with NodeType.RotationRotationVector"
-                )
-            for local, index in enumerate(indices):
-                if rigid:
-                    velocity_names[index] = prefix + _RIGID_BODY_VELOCITIES[local]
-                else:
-                    velocity_names[index] = f"{prefix}q{local}' [1/s]"
-                if rigid and local >= 3:
-                    position_of[index] = ROTATION
-                elif index not in cyclic:
-                    position_of[index] = len(position_names)
-                    label = _RIGID_BODY_POSITIONS[local] if rigid else f"q{local} [1]"
-                    position_names.append(prefix + label)
-            if rigid:
-                spins = node in spinning
-                rotations.append((int(indices[3]), len(position_names), int(spins)))
-                reference.append(np.array(description["referenceCoordinates"])[3:6])
-                labels = _RIGID_BODY_POSITIONS[3:5] if spins else _RIGID_BODY_POSITIONS[3:6]
-                position_names += [prefix + label for label in labels]
-                if spins and spinning[node]:
-                    self._steady_velocities.append((int(indices[4]), 1.0 / spinning[node]))
-            for index in data.GetNodeLTGODE1(node):
-                first_order_names.append(f"{description['name']}: state {index} [1]")
-        self._positions = len(position_names)
-        self._position_of = position_of
-        self._rotations = np.array(rotations, dtype=np.int64).reshape(-1, 3)
-        self._reference = np.array(reference, dtype=float).reshape(-1, 3)
-        self._automatic_names = (*position_names, *velocity_names, *first_order_names)
-        self._coordinates = np.zeros(self._order2)
-        self._velocities = np.zeros(self._order2)
-        self._first_order = np.zeros(self._order1)
 
     def _check_mass_matrix(self) -> None:
         """Keep the inverse of the mass matrix if it is the same at some distance."""

@@ -20,19 +20,17 @@ from typing import Any, Literal
 import numpy as np
 from scipy.optimize import brentq, linear_sum_assignment
 
-from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.analyses.spectra import (
+    NEUTRAL_FRACTION,
+    NEUTRAL_RATE,
+    Kind,
+    Spectra,
+    check_finite,
+    oscillatory_pairs,
+    real_roots,
+)
+from exudyn_wheelset.analyses.system import Array, as_system
 from exudyn_wheelset.errors import AnalysisError
-
-# A pair counts as unstable above this fraction of its |eigenvalue|: undamped modes (a spring
-# without damper) have a real part that is rounding of the differences, of either sign.
-NEUTRAL_FRACTION = 1.0e-6
-# A real root counts as unstable above this rate [1/s]: a coordinate that the equations leave free
-# has a double zero root, which rounding moves by its square root.
-NEUTRAL_RATE = 1.0e-3
-# Pairs slower than this [Hz] are taken for real roots: they are split double zeros.
-LOWEST_FREQUENCY = 1.0e-3
-
-Kind = Literal["hopf", "divergence"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +53,7 @@ class Linearisation:
     @property
     def growth_rate(self) -> float:
         """Real part [1/s] of the least damped oscillatory pair; -inf if none oscillates."""
-        pairs = _pairs(self.eigenvalues)
+        pairs = oscillatory_pairs(self.eigenvalues)
         return float(pairs.real.max()) if len(pairs) else -np.inf
 
 
@@ -117,7 +115,7 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     system = as_system(vehicle)
     state = system.equilibrium(speed, guess)
     jacobian = system.jacobian(state, speed)
-    _check_finite(system, jacobian, speed)
+    check_finite(system, jacobian, speed)
     # Eigenvectors in scaled states are better conditioned than in metres beside radians/second.
     scales = system.scales
     values, vectors = np.linalg.eig(jacobian * scales[None, :] / scales[:, None])
@@ -150,7 +148,7 @@ def linear_critical_speed(
     Raises AnalysisError if no pair loses stability in [low, high]; the message gives the growth
     rates at both ends.
     """
-    spectra = _Spectra(as_system(vehicle))
+    spectra = Spectra(as_system(vehicle))
     _check_range(low, high, points)
     if guess is not None:
         found = _critical_speed_near(spectra, low, high, guess, tolerance)
@@ -175,7 +173,7 @@ def stability_changes(
 
     Raises AnalysisError where the system has no equilibrium.
     """
-    spectra = _Spectra(as_system(vehicle))
+    spectra = Spectra(as_system(vehicle))
     _check_range(low, high, points)
     speeds = np.linspace(low, high, points)
     found: list[CriticalPoint] = []
@@ -211,7 +209,7 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
 
     A root goes to the one nearest to its linear extrapolation. Raises AnalysisError.
     """
-    spectra = _Spectra(as_system(vehicle))
+    spectra = Spectra(as_system(vehicle))
     speeds = np.asarray(speeds, dtype=float)
     rows: list[Array] = []
     for index, speed in enumerate(speeds):
@@ -232,76 +230,6 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     )
 
 
-class _Spectra:
-    """Eigenvalues over speed, computed once a speed; equilibria start from the nearest known."""
-
-    def __init__(self, system: DynamicSystem) -> None:
-        self.system = system
-        self.evaluations = 0
-        self._states: dict[float, Array] = {}
-        self._values: dict[float, Array] = {}
-        self._start: Array | None = None
-
-    def start_from(self, state: Array) -> None:
-        self._start = state
-
-    def state(self, speed: float) -> Array:
-        self.eigenvalues(speed)
-        return self._states[speed]
-
-    def eigenvalues(self, speed: float) -> Array:
-        if speed not in self._values:
-            guess = self._start
-            if self._states:
-                guess = self._states[min(self._states, key=lambda known: abs(known - speed))]
-            state = self.system.equilibrium(speed, guess)
-            jacobian = self.system.jacobian(state, speed)
-            _check_finite(self.system, jacobian, speed)
-            scales = self.system.scales
-            values = np.linalg.eigvals(jacobian * scales[None, :] / scales[:, None])
-            self.evaluations += 1
-            self._states[speed] = state
-            self._values[speed] = values
-        return self._values[speed]
-
-    def excess(self, kind: Kind, speed: float) -> Array:
-        """By how much each root of a kind exceeds the neutral margin, falling [1/s]."""
-        values = self.eigenvalues(speed)
-        if kind == "hopf":
-            pairs = _pairs(values)
-            margins = pairs.real - NEUTRAL_FRACTION * np.abs(pairs)
-        else:
-            margins = _reals(values) - NEUTRAL_RATE
-        return np.sort(margins)[::-1]
-
-    def unstable(self, kind: Kind, speed: float) -> int:
-        return int(np.count_nonzero(self.excess(kind, speed) > 0.0))
-
-    def nearest(self, speed: float, eigenvalue: complex) -> complex:
-        """The oscillatory root nearest to an eigenvalue."""
-        pairs = _pairs(self.eigenvalues(speed))
-        if not len(pairs):
-            raise AnalysisError(f"{self.system.name}: nothing oscillates at {speed:g} m/s")
-        return complex(pairs[np.argmin(np.abs(pairs - eigenvalue))])
-
-
-def _pairs(values: Array) -> Array:
-    """One root of each oscillatory pair, the one with positive imaginary part."""
-    return values[values.imag > 2.0 * np.pi * LOWEST_FREQUENCY]
-
-
-def _reals(values: Array) -> Array:
-    return values.real[np.abs(values.imag) <= 2.0 * np.pi * LOWEST_FREQUENCY]
-
-
-def _check_finite(system: DynamicSystem, jacobian: Array, speed: float) -> None:
-    if not np.all(np.isfinite(jacobian)):
-        raise AnalysisError(
-            f"{system.name}: the Jacobian at the equilibrium at {speed:g} m/s is not finite; a "
-            "difference step leaves the range of the model: check the scales"
-        )
-
-
 def _check_range(low: float, high: float, points: int) -> None:
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise AnalysisError(f"the range of speeds must rise from low to high, got {low} to {high}")
@@ -310,7 +238,7 @@ def _check_range(low: float, high: float, points: int) -> None:
 
 
 def _crossing(
-    spectra: _Spectra, kind: Kind, index: int, left: float, right: float, tolerance: float
+    spectra: Spectra, kind: Kind, index: int, left: float, right: float, tolerance: float
 ) -> CriticalPoint | None:
     """Where the root number `index` (by falling real part) crosses zero between two speeds."""
 
@@ -322,7 +250,7 @@ def _crossing(
     speed = float(brentq(excess, left, right, xtol=max(tolerance, 1e-9), rtol=1e-14))
     if kind == "divergence":
         return _divergence(spectra, speed, excess, right if excess(right) > 0.0 else left)
-    roots = _pairs(spectra.eigenvalues(speed))
+    roots = oscillatory_pairs(spectra.eigenvalues(speed))
     if index >= len(roots):
         return None
     eigenvalue = complex(roots[np.argsort(NEUTRAL_FRACTION * np.abs(roots) - roots.real)[index]])
@@ -336,10 +264,10 @@ def _crossing(
 
 
 def _divergence(
-    spectra: _Spectra, speed: float, excess: Callable[[float], float], unstable_end: float
+    spectra: Spectra, speed: float, excess: Callable[[float], float], unstable_end: float
 ) -> CriticalPoint | None:
     """The divergence near the speed where a real root reaches the neutral rate."""
-    roots = _reals(spectra.eigenvalues(speed))
+    roots = real_roots(spectra.eigenvalues(speed))
     eigenvalue = float(roots[np.argmin(np.abs(roots - NEUTRAL_RATE))])
     if abs(eigenvalue - NEUTRAL_RATE) > 0.1 * NEUTRAL_RATE:
         return None
@@ -363,7 +291,7 @@ def _divergence(
 
 
 def _polish(
-    spectra: _Spectra, speed: float, eigenvalue: complex, tolerance: float
+    spectra: Spectra, speed: float, eigenvalue: complex, tolerance: float
 ) -> tuple[float, complex] | None:
     """Speed and root where the real part of the pair near `eigenvalue` is zero, by a secant."""
     step = 1e-3 * max(abs(speed), 1.0)
@@ -384,15 +312,15 @@ def _polish(
 
 
 def _critical_speed_near(
-    spectra: _Spectra, low: float, high: float, guess: float, tolerance: float
+    spectra: Spectra, low: float, high: float, guess: float, tolerance: float
 ) -> CriticalPoint | None:
     """The critical speed by a secant from a guess; None if the scan has to look for it."""
     try:
         if isinstance(guess, CriticalPoint) and len(guess.state) == spectra.system.size:
-            spectra.start_from(guess.state)
+            spectra.start_from(guess.speed, guess.state)
             eigenvalue = guess.eigenvalue
         else:
-            pairs = _pairs(spectra.eigenvalues(float(guess)))
+            pairs = oscillatory_pairs(spectra.eigenvalues(float(guess)))
             eigenvalue = complex(pairs[np.argmax(pairs.real - NEUTRAL_FRACTION * np.abs(pairs))])
         polished = _polish(spectra, float(guess), eigenvalue, tolerance)
     except (AnalysisError, ValueError):
@@ -400,7 +328,7 @@ def _critical_speed_near(
     if polished is None or not low <= polished[0] <= high:
         return None
     speed, eigenvalue = polished
-    others = _pairs(spectra.eigenvalues(speed))
+    others = oscillatory_pairs(spectra.eigenvalues(speed))
     others = others[np.abs(others - eigenvalue) > 1e-6 * abs(eigenvalue)]
     if np.any(others.real > NEUTRAL_FRACTION * np.abs(others)):
         return None
@@ -408,7 +336,7 @@ def _critical_speed_near(
     return point if point.slope > 0.0 else None
 
 
-def _hopf_point(spectra: _Spectra, speed: float, eigenvalue: complex) -> CriticalPoint:
+def _hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalPoint:
     mode, state = _mode(spectra, speed, eigenvalue)
     step = 1e-4 * max(abs(speed), 1.0)
     shifted = spectra.nearest(speed + step, eigenvalue)
@@ -425,7 +353,7 @@ def _hopf_point(spectra: _Spectra, speed: float, eigenvalue: complex) -> Critica
     )
 
 
-def _mode(spectra: _Spectra, speed: float, eigenvalue: complex) -> tuple[Array, Array]:
+def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, Array]:
     """Eigenvector of the root nearest to an eigenvalue, and the equilibrium."""
     system = spectra.system
     state = spectra.state(speed)
@@ -438,11 +366,11 @@ def _mode(spectra: _Spectra, speed: float, eigenvalue: complex) -> tuple[Array, 
     return mode * (system.scales[largest] / mode[largest]), state
 
 
-def _no_critical_speed(spectra: _Spectra, speeds: Array) -> str:
+def _no_critical_speed(spectra: Spectra, speeds: Array) -> str:
     """Why no pair loses stability over a scan of speeds."""
 
     def worst(speed: float) -> str:
-        pairs = _pairs(spectra.eigenvalues(speed))
+        pairs = oscillatory_pairs(spectra.eigenvalues(speed))
         if not len(pairs):
             return f"nothing oscillates at {speed:g} m/s"
         root = pairs[np.argmax(pairs.real)]

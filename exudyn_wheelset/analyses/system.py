@@ -111,6 +111,14 @@ class DynamicSystem(ABC):
         """
         return newton_equilibrium(self, speed, guess)
 
+    def carry_over(self, state: Array, speed: float, new_speed: float) -> Array:
+        """Guess (n,) of a state at `new_speed` from a like state at `speed` [m/s].
+
+        The default is the state itself. A system whose steady velocities (the spin of a wheelset)
+        follow the speed shifts them: without that a wheelset would begin with gross sliding.
+        """
+        return state
+
     def simulate(self, state: Array, speed: float, times: Array) -> Array:
         """Motion from `state` (n,) at times[0], sampled at `times` (m,) [s]; shape (m, n).
 

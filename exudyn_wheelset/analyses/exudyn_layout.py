@@ -1,0 +1,131 @@
+"""How the coordinates of an Exudyn model become the states of an analysis.
+
+Each node's second-order coordinates give positions and velocities, except that the rotation vector
+of a rigid body becomes yaw, roll and (without spin) pitch, and cyclic coordinates have no position
+in the state (see `reduction`). Names carry the units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.analyses.reduction import CYCLIC, ROTATION
+from exudyn_wheelset.errors import AnalysisError
+
+Array = np.ndarray
+
+ROTATION_VECTOR_NODE = "RigidBodyRotVecLG"
+_AXES = ("x", "y", "z")
+_POSES = ("x [m]", "y [m]", "z [m]", "yaw [rad]", "roll [rad]", "pitch [rad]")
+_SPINS = ("wx [rad/s]", "wy [rad/s]", "wz [rad/s]")
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Tables of `reduction` and the names of the states.
+
+    positions          number of position states, which come first
+    position_of        (nq) state of each second-order coordinate, CYCLIC or ROTATION
+    rotations          (k, 3) first coordinate, state of yaw, 1 if it spins, by rotation vector
+    reference          (k, 3) reference rotation vectors [rad]
+    steady_velocities  (second-order coordinate, velocity per forward speed) in steady running
+    names              of all states
+    """
+
+    positions: int
+    position_of: Array
+    rotations: Array
+    reference: Array
+    steady_velocities: tuple[tuple[int, float], ...]
+    names: tuple[str, ...]
+
+
+def lay_out(
+    mbs: Any,
+    nodes: Sequence[int],
+    spinning: Mapping[int, float],
+    cyclic: Mapping[int, float],
+    name: str,
+) -> Layout:
+    """Layout of an assembled Exudyn system with the given nodes.
+
+    `spinning` maps nodes to rolling radii [m] (0: unknown), `cyclic` second-order coordinates to
+    their velocity per forward speed. Raises AnalysisError, which begins with `name`, for entries
+    that the model does not have or that cannot be cyclic.
+    """
+    data = mbs.systemData
+    indices_of = {node: [int(index) for index in data.GetNodeLTGODE2(node)] for node in nodes}
+    size = sum(map(len, indices_of.values()))
+    _check_entries("spinning_nodes", spinning, indices_of, name)
+    _check_entries("cyclic", cyclic, range(size), name)
+    moving = sum(len(indices) > 0 for indices in indices_of.values())
+
+    position_of = np.full(size, CYCLIC, dtype=np.int64)
+    position_names: list[str] = []
+    velocity_names = [""] * size
+    first_order_names: list[str] = []
+    rotations: list[tuple[int, int, int]] = []
+    reference: list[Array] = []
+    steady = list(cyclic.items())
+    for node, indices in indices_of.items():
+        description = mbs.GetNode(node)
+        kind = description["nodeType"]
+        label = description["name"].removeprefix("Node:")
+        prefix = f"{label}: " if moving > 1 else ""
+        rigid, spins = kind == ROTATION_VECTOR_NODE, node in spinning
+        if spins and not rigid:
+            raise AnalysisError(
+                f"{name}: node {node} ({kind}) cannot spin; create the body with "
+                "NodeType.RotationRotationVector"
+            )
+        for local, index in enumerate(indices):
+            position, velocity = _names(kind, local)
+            velocity_names[index] = prefix + velocity
+            if rigid and local >= 3:
+                if index in cyclic:
+                    raise AnalysisError(
+                        f"{name}: coordinate {index} in cyclic is part of the rotation vector of "
+                        f"node {node}; name the node in spinning_nodes instead"
+                    )
+                position_of[index] = ROTATION
+            elif index not in cyclic:
+                position_of[index] = len(position_names)
+                position_names.append(prefix + position)
+        if rigid:
+            rotations.append((indices[3], len(position_names), int(spins)))
+            reference.append(np.array(description["referenceCoordinates"])[3:6])
+            position_names += [prefix + angle for angle in _POSES[3 : 5 if spins else 6]]
+            if spins and spinning[node]:
+                steady.append((indices[4], 1.0 / spinning[node]))
+        first_order_names += [f"{label}: state {k} [1]" for k in data.GetNodeLTGODE1(node)]
+    return Layout(
+        positions=len(position_names),
+        position_of=position_of,
+        rotations=np.array(rotations, dtype=np.int64).reshape(-1, 3),
+        reference=np.array(reference, dtype=float).reshape(-1, 3),
+        steady_velocities=tuple(steady),
+        names=(*position_names, *velocity_names, *first_order_names),
+    )
+
+
+def _names(kind: str, local: int) -> tuple[str, str]:
+    """Names of position and velocity of a node's coordinate."""
+    if local < 3 and (kind.startswith("RigidBody") or kind == "Point"):
+        return f"{_AXES[local]} [m]", f"v{_AXES[local]} [m/s]"
+    if kind == ROTATION_VECTOR_NODE:
+        return _POSES[local], _SPINS[local - 3]
+    if kind.startswith("RigidBody"):
+        return f"rotation {local - 3} [rad]", f"rotation {local - 3}' [rad/s]"
+    return f"q{local} [1]", f"q{local}' [1/s]"
+
+
+def _check_entries(what: str, entries: Mapping[int, float], known: Any, name: str) -> None:
+    for entry in entries:
+        if entry not in known:
+            raise AnalysisError(
+                f"{name}: {what} names {entry}, the model has {', '.join(map(str, known))}"
+            )
