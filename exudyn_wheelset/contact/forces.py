@@ -76,7 +76,7 @@ PATCH_WIDTH = 20
 # Result array: wrench (6), numbers of patches left and right, then the patches of either side.
 COUNT_LEFT, COUNT_RIGHT, PATCHES = 6, 7, 8
 RESULT_SIZE = PATCHES + 2 * MOST_LOBES * PATCH_WIDTH
-HERTZ, HERTZ_LOCAL = 0, 1
+HERTZ, HERTZ_LOCAL, VIRTUAL_PENETRATION = 0, 1, 2
 _SCRATCH = MOST_LOBES * LOBE_WIDTH
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1

@@ -53,17 +53,20 @@ def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
 def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
     """Contact-locus point at the wheel's arc length: (x, y, z, ny, nz, radius, wheel_y, curvature).
 
-    x is relative to the axle's centre; curvature [1/m] of the profile, z up, negative where the
-    wheel is concave (throat).
+    x is relative to the axle's centre; radius [m] is the rolling radius r sqrt(1 - (t lx)^2), the
+    arm of the spin: the lead takes the rest of r out of the direction of travel; curvature [1/m] of
+    the profile, z up, negative where the wheel is concave (throat).
     """
     offset = int(table[side + WHEEL])
     segments = int(table[side + WHEEL_SEGMENTS])
     y, y1, y2, z, z1, z2 = curve_point(table, offset, table[side + WHEEL_SPACING], segments, arc)
     radius = table[side + RADIUS] - z
+    slope = -z1 / y1
     x, py, pz, ny, nz = locus_point(
-        table[side + TAPE] + y, radius, -z1 / y1, 0.0, cy, cz, lx, ly, lz
+        table[side + TAPE] + y, radius, slope, 0.0, cy, cz, lx, ly, lz
     )
-    return x, py, pz, ny, nz, radius, y, y1 * z2 - z1 * y2
+    arm = radius * math.sqrt(max(1.0 - slope * slope * lx * lx, 0.0))
+    return x, py, pz, ny, nz, arm, y, y1 * z2 - z1 * y2
 
 
 @njit(cache=True, error_model="numpy")

@@ -1,0 +1,186 @@
+"""One wheelset on the track: from pose and velocity to patches and wrench, by the public names.
+
+    wheelset = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
+    track = Track(rail="UIC60")
+    pose = (0, 0.003, -2.0e-4, 2e-4, 0, 0)
+    forces = contact_forces(wheelset, track, pose, velocity=(20, 0, 0, 0, 20 / 0.46, 0))
+    forces.left[0].normal_force
+
+Track frame: x forward, y left, z up.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.creep import creep_law, creep_parameters
+from exudyn_wheelset.errors import WheelsetError
+
+NORMAL_MODELS = {
+    "hertz": kernel.HERTZ,
+    "hertz-local": kernel.HERTZ_LOCAL,
+    "virtual-penetration": kernel.VIRTUAL_PENETRATION,
+}
+
+
+@dataclass(frozen=True)
+class Patch:
+    """One contact patch; positions and angle count towards the field side of its own wheel.
+
+    wheel_y [m] from the tape circle, rail_y [m] from the rail's highest point, angle [rad],
+    radius [m] rolling radius, normal_force [N], creep_x, creep_y [-], spin [1/m], fx, fy [N] creep
+    force on the wheel along x and the lateral tangent (right-handed triad, y to the left on both
+    sides), mz [N m] about the normal, a, b [m] semi-axes along rolling and lateral, penetration
+    [m], position (3) [m] from the wheelset's centre and normal (3), track frame; energy [J]
+    elastic energy stored.
+    """
+
+    wheel_y: float
+    rail_y: float
+    angle: float
+    radius: float
+    normal_force: float
+    creep_x: float
+    creep_y: float
+    spin: float
+    fx: float
+    fy: float
+    mz: float
+    a: float
+    b: float
+    penetration: float
+    position: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    energy: float
+
+
+@dataclass(frozen=True)
+class ContactForces:
+    """Forces of the rails on a wheelset, track frame.
+
+    force (3) [N]; moment (3) [N m] about the wheelset's centre; left, right: patches of either
+    wheel, from the flange outwards, an empty tuple where a wheel has lifted off.
+    """
+
+    force: np.ndarray
+    moment: np.ndarray
+    left: tuple[Patch, ...]
+    right: tuple[Patch, ...]
+
+
+def contact_parameters(
+    *,
+    normal: str = "hertz",
+    creep: str = "polach",
+    friction: float = 0.3,
+    shear_modulus: float = 82.0e9,
+    poisson: float = 0.28,
+    damping: float = 0.0,
+    **law_parameters: float,
+) -> np.ndarray:
+    """Return the kernels' parameter array.
+
+    normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
+    point) or "virtual-penetration"; creep: name of a creep law, law_parameters: its own;
+    friction [-]; shear_modulus [Pa]; poisson [-]; damping [s/m] of the normal contact.
+    Raises WheelsetError for unknown names and impossible values.
+    """
+    if normal not in NORMAL_MODELS:
+        raise WheelsetError(f"normal = {normal!r} is unknown: use one of {', '.join(NORMAL_MODELS)}")
+    checks = (
+        ("friction", friction, 0.0, 5.0, "0 to 5"),
+        ("shear_modulus", shear_modulus, 1.0e6, 1.0e13, "a modulus in Pa, such as 82e9"),
+        ("poisson", poisson, 0.0, 0.5, "0 to 0.5"),
+        ("damping", damping, 0.0, 1.0e3, "0 to 1000 s/m"),
+    )
+    for name, value, low, high, wanted in checks:
+        if not np.isfinite(value) or not low <= value <= high:
+            raise WheelsetError(f"{name} = {value!r}: give {wanted}")
+    parameters = np.zeros(kernel.PARAMETER_COUNT)
+    parameters[kernel.FRICTION] = friction
+    parameters[kernel.SHEAR_MODULUS] = shear_modulus
+    parameters[kernel.POISSON] = poisson
+    parameters[kernel.DAMPING] = damping
+    parameters[kernel.LAW] = creep_law(creep).number
+    parameters[kernel.NORMAL] = NORMAL_MODELS[normal]
+    values = creep_parameters(creep, **law_parameters)
+    parameters[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(values)] = values
+    return parameters
+
+
+def contact_forces(
+    wheelset: Wheelset,
+    track: Track,
+    pose: Sequence[float],
+    velocity: Sequence[float],
+    normal: str = "hertz",
+    creep: str = "polach",
+    friction: float = 0.3,
+    shear_modulus: float = 82.0e9,
+    poisson: float = 0.28,
+    damping: float = 0.0,
+    rail_motion: Sequence[float] | None = None,
+    **law_parameters: float,
+) -> ContactForces:
+    """Return the forces of `track` on `wheelset` in a pose with a velocity.
+
+    pose (x, y, z, roll, pitch, yaw) [m, rad] in the track frame, z from `radius` above the plane
+    of the rail tops, orientation Rz(yaw) Rx(roll) Ry(pitch); velocity (vx, vy, vz, wx, wy, wz)
+    [m/s, rad/s] of the centre and angular, in track axes; rail_motion (8): lateral and vertical
+    shift [m] of the left and of the right rail, then their rates [m/s]. The other parameters are
+    those of `contact_parameters`.
+    Raises WheelsetError for numbers that are not finite, of the wrong count, or unknown names.
+    """
+    pose = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
+    velocity = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
+    motion = np.zeros(8) if rail_motion is None else _numbers("rail_motion", rail_motion, 8)
+    parameters = contact_parameters(
+        normal=normal,
+        creep=creep,
+        friction=friction,
+        shear_modulus=shear_modulus,
+        poisson=poisson,
+        damping=damping,
+        **law_parameters,
+    )
+    _, y, z, roll, _, yaw = pose
+    axle = (-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll))
+    result = kernel.new_result()
+    kernel.wheelset_forces(
+        contact_tables(wheelset, track), y, z, *axle, *velocity, motion, parameters, result
+    )
+    return read_result(result)
+
+
+def read_result(result: np.ndarray) -> ContactForces:
+    """Turn the kernel's result array into named forces and patches."""
+    sides = []
+    for hand in range(2):
+        patches = []
+        for k in range(int(result[kernel.COUNT_LEFT + hand])):
+            start = kernel.PATCHES + (hand * kernel.MOST_LOBES + k) * kernel.PATCH_WIDTH
+            row = [float(value) for value in result[start : start + kernel.PATCH_WIDTH]]
+            patches.append(
+                Patch(
+                    *row[: kernel.PATCH_X],
+                    position=(row[14], row[15], row[16]),
+                    normal=(0.0, row[17], row[18]),
+                    energy=row[kernel.PATCH_ENERGY],
+                )
+            )
+        sides.append(tuple(patches))
+    return ContactForces(result[0:3].copy(), result[3:6].copy(), sides[0], sides[1])
+
+
+def _numbers(what: str, values: Sequence[float], count: int) -> np.ndarray:
+    array = np.asarray(values, dtype=float)
+    if array.shape != (count,) or not np.all(np.isfinite(array)):
+        raise WheelsetError(f"{what} = {values!r}: give {count} finite numbers, SI and radians")
+    return array

@@ -1,0 +1,255 @@
+"""Adding wheelsets to an Exudyn system: functions that take `mbs` first and return item numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn import graphics
+from exudyn.utilities import (
+    LoadForceVector,
+    LoadTorqueVector,
+    MarkerBodyRigid,
+    RigidBodyInertia,
+    SensorUserFunction,
+)
+
+from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.wheelset_contact import contact_parameters
+from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
+from exudyn_wheelset.errors import WheelsetError
+
+SENSOR_VALUES = (
+    "normal_force",
+    "fx",
+    "fy",
+    "creep_x",
+    "creep_y",
+    "spin",
+    "wheel_y",
+    "rail_y",
+    "angle",
+    "radius",
+    "penetration",
+    "patches",
+)
+_SENSOR_ROWS = (
+    kernel.PATCH_CREEP_X,
+    kernel.PATCH_CREEP_Y,
+    kernel.PATCH_SPIN,
+    kernel.PATCH_WHEEL_Y,
+    kernel.PATCH_RAIL_Y,
+    kernel.PATCH_ANGLE,
+    kernel.PATCH_RADIUS,
+    kernel.PATCH_PENETRATION,
+)
+
+
+@dataclass(frozen=True)
+class WheelsetItems:
+    """Item numbers of a wheelset in an Exudyn system, and its contact.
+
+    node, body: the rigid body; marker: on its centre; force_load, torque_load: contact loads;
+    left_sensor, right_sensor: user sensors with SENSOR_VALUES of either wheel (None if not asked
+    for); contact: the WheelRailContact behind the loads.
+    """
+
+    node: int
+    body: int
+    marker: int
+    force_load: int
+    torque_load: int
+    left_sensor: int | None
+    right_sensor: int | None
+    contact: WheelRailContact
+
+
+def create_wheelset(
+    mbs: Any,
+    wheelset: Wheelset,
+    track: Track,
+    *,
+    position: Sequence[float] = (0.0, 0.0),
+    speed: float = 20.0,
+    moving_frame: bool = False,
+    height: float | None = None,
+    lateral_offset: float = 0.0,
+    yaw: float = 0.0,
+    gravity: float = 9.81,
+    normal: str = "hertz",
+    creep: str = "polach",
+    friction: float = 0.3,
+    shear_modulus: float = 82.0e9,
+    poisson: float = 0.28,
+    damping: float = 1.0,
+    irregularity: Irregularity | None = None,
+    sensors: bool = True,
+    show: bool = True,
+    name: str = "wheelset",
+    **law_parameters: float,
+) -> WheelsetItems:
+    """Add a wheelset on profiled rails to `mbs` and return its item numbers.
+
+    position (x, y) [m] of the centre in the reference configuration; speed V [m/s]: it starts
+    rolling with the spin V/radius; moving_frame: the model stands in a frame that moves at V
+    (springs to Exudyn's ground are then springs to that frame), otherwise the body runs at V
+    along x. height [m] of the centre above `radius` over the rail tops (default: 0.1 mm into the
+    rails' rigid contact, about the static penetration); lateral_offset [m] and yaw [rad]: initial
+    displacement. gravity [m/s^2] downwards. normal, creep, friction, shear_modulus, poisson,
+    damping and law_parameters: see `contact_parameters`. irregularity: see WheelRailContact.
+    Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
+    rails.
+    """
+    values = {"speed": speed, "lateral_offset": lateral_offset, "yaw": yaw, "gravity": gravity}
+    for what, value in values.items():
+        if not np.isfinite(value):
+            raise WheelsetError(f"{what} = {value!r}: give a finite number (SI units)")
+    parameters = contact_parameters(
+        normal=normal,
+        creep=creep,
+        friction=friction,
+        shear_modulus=shear_modulus,
+        poisson=poisson,
+        damping=damping,
+        **law_parameters,
+    )
+    contact = WheelRailContact(
+        wheelset, track, parameters, speed if moving_frame else 0.0, irregularity
+    )
+    if height is None:
+        height = _rest_height(wheelset, track) - 1.0e-4
+    inertia = RigidBodyInertia(mass=wheelset.mass, inertiaTensor=np.diag(wheelset.inertia))
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    spin = speed / wheelset.radius
+    created = mbs.CreateRigidBody(
+        name=name,
+        inertia=inertia,
+        nodeType=exu.NodeType.RotationRotationVector,
+        referencePosition=[position[0], position[1], wheelset.radius + height],
+        initialDisplacement=[0.0, lateral_offset, 0.0],
+        initialVelocity=[0.0 if moving_frame else speed, 0.0, 0.0],
+        initialRotationMatrix=np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0, 0, 1.0]]),
+        initialAngularVelocity=[-spin * sine, spin * cosine, 0.0],
+        gravity=[0.0, 0.0, -gravity],
+        graphicsDataList=wheelset_graphics(wheelset) if show else [],
+        returnDict=True,
+    )
+    marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} centre", bodyNumber=created["bodyNumber"]))
+    contact.attach(mbs, created["nodeNumber"])
+    force = mbs.AddLoad(
+        LoadForceVector(
+            name=f"{name} rail force",
+            markerNumber=marker,
+            loadVectorUserFunction=contact.force_load,
+        )
+    )
+    torque = mbs.AddLoad(
+        LoadTorqueVector(
+            name=f"{name} rail torque",
+            markerNumber=marker,
+            loadVectorUserFunction=contact.torque_load,
+        )
+    )
+    side_sensors: list[int | None] = [None, None]
+    if sensors:
+        for hand, side in enumerate(("left", "right")):
+            side_sensors[hand] = mbs.AddSensor(
+                SensorUserFunction(
+                    name=f"{name} {side} wheel",
+                    sensorNumbers=[],
+                    factors=[],
+                    sensorUserFunction=_sensor(contact, hand),
+                    storeInternal=True,
+                    writeToFile=False,
+                )
+            )
+    return WheelsetItems(
+        created["nodeNumber"],
+        created["bodyNumber"],
+        marker,
+        force,
+        torque,
+        side_sensors[0],
+        side_sensors[1],
+        contact,
+    )
+
+
+def _rest_height(wheelset: Wheelset, track: Track) -> float:
+    from exudyn_wheelset.contact.rigid import contact_geometry
+
+    return float(contact_geometry(wheelset, track, [0.0]).z[0])
+
+
+def _sensor(contact: WheelRailContact, hand: int) -> Any:
+    """Sensor function of one wheel: SENSOR_VALUES, forces summed over patches, rest weighted."""
+
+    def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
+        result = contact.evaluate(mbs, configuration)
+        count = int(result[kernel.COUNT_LEFT + hand])
+        start = kernel.PATCHES + hand * kernel.MOST_LOBES * kernel.PATCH_WIDTH
+        rows = result[start : start + count * kernel.PATCH_WIDTH].reshape(
+            count, kernel.PATCH_WIDTH
+        )
+        force = rows[:, kernel.PATCH_NORMAL_FORCE]
+        total = float(force.sum())
+        weights = force / total if total > 0.0 else force
+        return [
+            total,
+            float(rows[:, kernel.PATCH_FX].sum()),
+            float(rows[:, kernel.PATCH_FY].sum()),
+            *(float(weights @ rows[:, row]) for row in _SENSOR_ROWS),
+            float(count),
+        ]
+
+    return values
+
+
+def wheelset_graphics(wheelset: Wheelset) -> list[dict]:
+    """Axle and both wheels as bodies of revolution, for Exudyn's renderer."""
+    items = []
+    for hand, sign in enumerate((1.0, -1.0)):
+        profile = wheelset.wheel if hand == 0 else (wheelset.right_wheel or wheelset.wheel)
+        radius = wheelset.radius if hand == 0 else (wheelset.right_radius or wheelset.radius)
+        low, high = profile.span
+        y = np.linspace(low, high, 60)
+        outline = np.column_stack([wheelset.tape_half_distance + y, radius - profile.height(y)])
+        inner = 0.8 * radius
+        contour = np.vstack([[outline[0, 0], inner], outline, [outline[-1, 0], inner]])
+        contour[:, 0] *= sign
+        if sign < 0.0:
+            contour = contour[::-1]
+        items.append(
+            graphics.SolidOfRevolution(
+                pAxis=[0, 0, 0],
+                vAxis=[0, 1, 0],
+                contour=contour.tolist(),
+                color=[0.45, 0.48, 0.52, 1.0],
+                nTiles=64,
+            )
+        )
+        place = sign * (wheelset.tape_half_distance - 0.02)
+        items.append(
+            graphics.Cylinder(
+                pAxis=[0, place - 0.02, 0],
+                vAxis=[0, 0.04, 0],
+                radius=0.82 * radius,
+                color=[0.55, 0.58, 0.62, 1.0],
+                nTiles=48,
+            )
+        )
+    half = wheelset.tape_half_distance + 0.15
+    items.append(
+        graphics.Cylinder(
+            pAxis=[0, -half, 0],
+            vAxis=[0, 2 * half, 0],
+            radius=0.09,
+            color=[0.5, 0.5, 0.5, 1.0],
+            nTiles=32,
+        )
+    )
+    return items

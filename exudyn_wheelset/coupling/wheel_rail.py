@@ -1,0 +1,220 @@
+"""The rails' wrench on a wheelset as two Exudyn loads, a force and a torque on its centre.
+
+Exudyn calls the user function of each load at every evaluation. Both share one contact
+evaluation: whichever is called first computes and keeps force and torque with the coordinates
+they belong to; the other takes them only if its coordinates are the same to the last bit. During
+numerical Jacobians, where loads are evaluated one by one at shifted states, each computes anew.
+
+The body has a node of NodeType.RotationRotationVector: coordinates are its displacement and the
+rotation vector theta (R = exp(theta)), velocities the global velocity and the angular velocity in
+body axes (measured, and tested in test_coupling_against_kernel.py). The axle is the body's y axis,
+the reference orientation the identity.
+
+A model may run over the ground, its wheelsets moving at V, or stand in a frame that moves at V
+while the rails run backwards (`rail_speed`): the laws of motion are the same, and a spring to the
+moving frame is a spring to Exudyn's ground.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
+from exudyn_wheelset.errors import ContactError
+
+# A patch on the outer half of the flange, beyond the steepest contact angle, means that the wheel
+# is climbing over the rail: the contact angle falls while the wheelset rises.
+_DERAILED_RISE = 0.015
+Irregularity = Callable[[float], Any]
+
+
+@njit(cache=True, error_model="numpy")
+def body_wrench(q, v, first, reference, table, parameters, rail_motion, memory, result, part):
+    """Return part 0 (force [N]) or 1 (torque [N m]) of the wrench at system coordinates q, v.
+
+    first: index of the body's six coordinates in q; reference (3) [m]: its reference position;
+    memory (12): coordinates of the result at hand.
+    """
+    same = True
+    for k in range(6):
+        if memory[k] != q[first + k] or memory[6 + k] != v[first + k]:
+            same = False
+    if not same:
+        for k in range(6):
+            memory[k] = q[first + k]
+            memory[6 + k] = v[first + k]
+        tx, ty, tz = q[first + 3], q[first + 4], q[first + 5]
+        square = tx * tx + ty * ty + tz * tz
+        if square > 1.0e-10:
+            angle = math.sqrt(square)
+            s = math.sin(angle) / angle
+            c = (1.0 - math.cos(angle)) / square
+        else:
+            s = 1.0 - square / 6.0
+            c = 0.5 - square / 24.0
+        lx = -s * tz + c * tx * ty
+        ly = 1.0 - c * (tx * tx + tz * tz)
+        lz = s * tx + c * ty * tz
+        wx, wy, wz = v[first + 3], v[first + 4], v[first + 5]
+        # R w = w + s theta x w + c theta x (theta x w)
+        ux = ty * wz - tz * wy
+        uy = tz * wx - tx * wz
+        uz = tx * wy - ty * wx
+        kernel.wheelset_forces(
+            table,
+            reference[1] + q[first + 1],
+            reference[2] + q[first + 2] - table[kernel.RADIUS],
+            lx, ly, lz,
+            v[first], v[first + 1], v[first + 2],
+            wx + s * ux + c * (ty * uz - tz * uy),
+            wy + s * uy + c * (tz * ux - tx * uz),
+            wz + s * uz + c * (tx * uy - ty * ux),
+            rail_motion, parameters, result,
+        )  # fmt: skip
+    base = 3 * part
+    return result[base], result[base + 1], result[base + 2]
+
+
+@dataclass
+class WheelRailContact:
+    """Contact of one wheelset in an Exudyn model: its state between evaluations.
+
+    wheelset, track: descriptions; parameters: array of `contact_parameters`; rail_speed [m/s]:
+    speed of the moving frame the model stands in, 0 for a model that runs over the ground;
+    irregularity: function of the station [m] that returns the rail motion (8) per unit, or None.
+    """
+
+    wheelset: Wheelset
+    track: Track
+    parameters: np.ndarray
+    rail_speed: float = 0.0
+    irregularity: Irregularity | None = None
+    evaluations: int = field(default=0, init=False)
+
+    def __post_init__(self) -> None:
+        self.table = contact_tables(self.wheelset, self.track)
+        self.parameters = np.array(self.parameters, dtype=float)
+        self.result = kernel.new_result()
+        self.memory = np.full(12, np.nan)
+        self.rail_motion = np.zeros(8)
+        self.reference = np.zeros(3)
+        self.first = -1
+        self.node = -1
+        self._sensor_result = kernel.new_result()
+        self._sensor_memory = np.full(12, np.nan)
+        self.set_speed(self.rail_speed)
+
+    def set_speed(self, speed: float) -> None:
+        """Set the speed [m/s] of the moving frame the model stands in."""
+        self.rail_speed = float(speed)
+        self.parameters[kernel.RAIL_SPEED] = self.rail_speed
+        self.forget()
+
+    def forget(self) -> None:
+        """Drop the kept evaluation, after a parameter has changed."""
+        self.memory[0] = np.nan
+
+    def attach(self, mbs: Any, node: int) -> None:
+        """Bind to the body's node; its place in the system is looked up at the first call."""
+        self.node = node
+        self.reference = np.array(mbs.GetNodeParameter(node, "referenceCoordinates")[:3])
+        self.first = -1
+
+    def _place(self, mbs: Any) -> None:
+        indices = mbs.systemData.GetNodeLTGODE2(self.node)
+        self.first = int(indices[0])
+
+    def force_load(self, mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
+        """User function of the force load: force [N] of both rails, global axes."""
+        return self._wrench(mbs, t, 0)
+
+    def torque_load(self, mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
+        """User function of the torque load: torque [N m] about the centre, global axes."""
+        return self._wrench(mbs, t, 1)
+
+    def _wrench(self, mbs: Any, t: float, part: int) -> tuple[float, float, float]:
+        if self.first < 0:
+            self._place(mbs)
+        data = mbs.systemData
+        q = data.GetODE2Coordinates()
+        if self.irregularity is not None:
+            self._move_rails(q, t)
+        return body_wrench(
+            q,
+            data.GetODE2Coordinates_t(),
+            self.first,
+            self.reference,
+            self.table,
+            self.parameters,
+            self.rail_motion,
+            self.memory,
+            self.result,
+            part,
+        )
+
+    def _move_rails(self, q: np.ndarray, t: float) -> None:
+        assert self.irregularity is not None
+        station = self.reference[0] + q[self.first] + self.rail_speed * t
+        motion = np.asarray(self.irregularity(station), dtype=float)
+        if not np.array_equal(motion, self.rail_motion):
+            self.rail_motion[:] = motion
+            self.forget()
+
+    def current(self, mbs: Any, configuration: Any = None) -> ContactForces:
+        """Patches and wrench at the current state of the system (or another configuration)."""
+        self.evaluate(mbs, configuration)
+        return read_result(self._sensor_result)
+
+    def evaluate(self, mbs: Any, configuration: Any = None) -> np.ndarray:
+        """Result array at the system's state, kept apart from the solver's."""
+        if self.first < 0:
+            self._place(mbs)
+        arguments = () if configuration is None else (configuration,)
+        data = mbs.systemData
+        body_wrench(
+            data.GetODE2Coordinates(*arguments),
+            data.GetODE2Coordinates_t(*arguments),
+            self.first,
+            self.reference,
+            self.table,
+            self.parameters,
+            self.rail_motion,
+            self._sensor_memory,
+            self._sensor_result,
+            0,
+        )
+        # The memory does not see a changed parameter: the next sensor call computes anew.
+        self._sensor_memory[0] = np.nan
+        return self._sensor_result
+
+    def elastic_energy(self, mbs: Any) -> float:
+        """Energy [J] stored in all patches at the current state."""
+        forces = self.current(mbs)
+        return sum(patch.energy for patch in (*forces.left, *forces.right))
+
+    def check(self, mbs: Any) -> None:
+        """Raise ContactError where the wheelset has left the rails.
+
+        Derailed: no patch on one side while the other one's wheel has climbed the flange, or no
+        patch at all. A wheel that lifts off for a moment is no event.
+        """
+        result = self.evaluate(mbs)
+        left, right = result[kernel.COUNT_LEFT], result[kernel.COUNT_RIGHT]
+        data = mbs.systemData.GetODE2Coordinates()
+        height = self.reference[2] + data[self.first + 2] - self.wheelset.radius
+        shift = self.reference[1] + data[self.first + 1]
+        if abs(shift) > 0.04 or height > _DERAILED_RISE or height < -_DERAILED_RISE:
+            raise ContactError(
+                f"derailment: the wheelset stands at y = {shift * 1e3:.1f} mm, "
+                f"{height * 1e3:.1f} mm above its nominal height, with {left:.0f} patches on the "
+                f"left and {right:.0f} on the right"
+            )
