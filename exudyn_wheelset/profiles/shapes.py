@@ -177,8 +177,8 @@ def aar_1_20(
     both flanges, since both distances differ by 7/32 in;
     minimum_face 0.1 in: least length over which APTA SS-M-015-06 wants the flange angle kept;
     the tip's radius is not chosen: it is the greatest that leaves this face and touches the
-    flange's back plane, its greatest depth and its face, 11.5 mm with these values. Where the
-    tip is not one arc, a level crest joins two of the same radius (3.7 mm with these values);
+    flange's back plane, its greatest depth and its face, 11.6 mm with these values. Where the
+    tip is not one arc, a level crest joins two of the same radius (3.8 mm);
     field_end: the tread is straight up to there; the chamfer is left out.
 
     Raises ProfileError where the pieces do not fit together.
