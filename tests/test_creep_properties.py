@@ -67,8 +67,9 @@ def test_dissipation_of_fastsim_with_spin(flexibilities, sx, sy, psi, a, b, forc
     )
     power = -(fx * sx + fy * sy + mz * psi)
     scale = mu * force * (math.hypot(sx, sy) + abs(psi) * max(a, b))
-    # ten cells: where nearly all sticks, the loss is smaller than the error of the grid
-    assert power >= -2e-3 * scale
+    # one bed of springs gives back what it stored and no more; three stiffnesses for the parts
+    # of one slip are no such bed, and the theory itself then gains up to 0.3 % on slender patches
+    assert power >= -(1e-15 if flexibilities == 1 else 5e-3) * scale
 
 
 @pytest.mark.parametrize("law", list(CREEP_LAWS))

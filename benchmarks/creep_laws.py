@@ -1,0 +1,215 @@
+"""Accuracy and cost of the creep laws side by side, in one run.
+
+    python benchmarks/creep_laws.py [--json] [--figure FILE]
+
+Accuracy: distance of the force vector to the creep curves of the program CONTACT
+(tests/reference/creep_curves_ab1_nu0.28.csv), in per cent of mu N: the largest and the root mean
+square of each set. Cost: time of one call from compiled code, best of several rounds over the
+same states, and its ratio to Kalker's linear law in the same run. Beside it the costs that CONTACT
+needs, as measured elsewhere for one wheel on a like machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from exudyn_wheelset.creep import CREEP_LAWS, creep_force, creep_kernel, creep_parameters
+
+REFERENCE = Path(__file__).parents[1] / "tests/reference/creep_curves_ab1_nu0.28.csv"
+PATCH = {
+    "a": 5.5e-3,
+    "b": 5.5e-3,
+    "normal_force": 80e3,
+    "friction": 0.3,
+    "shear_modulus": 82e9,
+    "poisson": 0.28,
+}
+# law, parameters, label
+VARIANTS: list[tuple[str, dict[str, float], str]] = [
+    ("linear", {}, "linear"),
+    ("vermeulen-johnson", {}, "vermeulen-johnson"),
+    ("shen-hedrick-elkins", {}, "shen-hedrick-elkins"),
+    ("polach", {}, "polach"),
+    ("polach", {"spin_moment": 1}, "polach, spin moment"),
+    ("polach-2005", {"slip_reduction": 1.0}, "polach-2005 (k_A = k_S = 1)"),
+    ("fastsim", {}, "fastsim 10 x 10"),
+    ("fastsim", {"flexibilities": 3}, "fastsim 10 x 10, three L"),
+    ("fastsim", {"cells_along": 50, "cells_across": 50}, "fastsim 50 x 50"),
+]
+# microseconds a wheel
+CONTACT_COSTS = {
+    "CONTACT, KPEC + FASTSIM": "330",
+    "CONTACT, Hertz + FASTSIM, 10 across": "40",
+    "CONTACT, full solution": "1000 to 20000",
+}
+
+
+def reference_curves(path: Path = REFERENCE) -> dict[str, NDArray]:
+    """Give CONTACT's curves by set: columns creep_x, creep_y, spin, Fx, Fy, Mz (SI)."""
+    names = ("creep_x", "creep_y", "spin_per_m", "Fx_N", "Fy_N", "Mz_Nm")
+    curves: dict[str, list[list[float]]] = {}
+    with path.open() as file:
+        for row in csv.DictReader(file):
+            curves.setdefault(row["set"], []).append([float(row[name]) for name in names])
+    return {name: np.array(rows) for name, rows in curves.items()}
+
+
+@njit
+def _repeat(number: int, states: NDArray, parameters: NDArray, rounds: int) -> float:
+    total = 0.0
+    for _ in range(rounds):
+        for i in range(states.shape[0]):
+            force_x, force_y, moment = creep_kernel(
+                number, states[i, 0], states[i, 1], states[i, 2],
+                5.5e-3, 5.5e-3, 80e3, 0.3, 82e9, 0.28, parameters,
+            )  # fmt: skip
+            total += force_x + force_y + moment
+    return total
+
+
+def cost(law: str, parameters: dict[str, float], states: NDArray) -> float:
+    """Give the time of one call of a law [us], mean over the states, best of five rounds."""
+    number, array = CREEP_LAWS[law].number, creep_parameters(law, **parameters)
+    _repeat(number, states, array, 1)
+    begin = time.perf_counter()
+    _repeat(number, states, array, 1)
+    rounds = max(1, int(0.02 / max(time.perf_counter() - begin, 1e-6)))
+    best = np.inf
+    for _ in range(5):
+        begin = time.perf_counter()
+        _repeat(number, states, array, rounds)
+        best = min(best, time.perf_counter() - begin)
+    return 1e6 * best / (rounds * len(states))
+
+
+def measure() -> dict[str, Any]:
+    """Measure every variant; gives a dictionary that json can hold."""
+    curves = reference_curves()
+    limit = PATCH["friction"] * PATCH["normal_force"]
+    states = np.vstack([rows[:, :3] for rows in curves.values()])
+    results = []
+    for law, parameters, label in VARIANTS:
+        largest, mean = {}, {}
+        for name, rows in curves.items():
+            fx, fy, _ = creep_force(law, *rows[:, :3].T, **PATCH, **parameters)
+            error = 100.0 * np.hypot(fx - rows[:, 3], fy - rows[:, 4]) / limit
+            largest[name] = round(float(error.max()), 2)
+            mean[name] = round(float(np.sqrt(np.mean(error**2))), 2)
+        results.append(
+            {
+                "label": label,
+                "law": law,
+                "parameters": parameters,
+                "cost_us": cost(law, parameters, states),
+                "largest_error": largest,
+                "rms_error": mean,
+            }
+        )
+    base = results[0]["cost_us"]
+    for result in results:
+        result["cost_ratio"] = result["cost_us"] / base
+    return {"sets": list(curves), "laws": results, "contact_cost_us": CONTACT_COSTS}
+
+
+def table(measured: dict[str, Any]) -> str:
+    """Give the result as a Markdown table: largest error in % of mu N, cost per call."""
+    sets = measured["sets"]
+    lines = [
+        "| law | " + " | ".join(sets) + " | us a call | times linear |",
+        "|---|" + "---:|" * (len(sets) + 2),
+    ]
+    for result in measured["laws"]:
+        errors = [result["largest_error"][name] for name in sets]
+        cells = [f"{e:.1f}" if e < 100 else f"{e:.0f}" for e in errors]
+        lines.append(
+            f"| {result['label']} | " + " | ".join(cells)
+            + f" | {result['cost_us']:.3f} | {result['cost_ratio']:.1f} |"
+        )  # fmt: skip
+    for name, microseconds in measured["contact_cost_us"].items():
+        lines.append(f"| {name} (measured elsewhere) |" + " |" * len(sets) + f" {microseconds} | |")
+    return "\n".join(lines)
+
+
+def draw(measured: dict[str, Any], path: Path) -> None:
+    """Draw the forces over creepage beside CONTACT's, and error over cost, into a file."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    curves = reference_curves()
+    limit = PATCH["friction"] * PATCH["normal_force"]
+    panels = [
+        ("lon", 0, 3, "longitudinal creepage [-]"),
+        ("spin", 2, 4, "spin [1/m]"),
+        ("lat_spin_p1e-3", 1, 4, "lateral creepage [-], with spin 1 1/m"),
+    ]
+    shown = {
+        "vermeulen-johnson": ("tab:brown", "--"),
+        "shen-hedrick-elkins": ("tab:green", "--"),
+        "polach": ("tab:blue", "-"),
+        "fastsim": ("tab:orange", "-"),
+    }
+    figure, axes = plt.subplots(2, 2, figsize=(10, 7.2), layout="constrained")
+    for axis, (name, over, force, label) in zip(axes.flat, panels, strict=False):
+        rows = curves[name]
+        grid = np.geomspace(rows[0, over], rows[-1, over], 200)
+        states = np.tile(rows[0, :3], (len(grid), 1))
+        states[:, over] = grid
+        for law, (color, style) in shown.items():
+            forces = creep_force(law, *states.T, **PATCH)
+            axis.semilogx(grid, -forces[force - 3] / limit, style, color=color, label=law)
+        axis.semilogx(
+            rows[:, over], -rows[:, force] / limit, "ko", markersize=4, label="CONTACT, full"
+        )
+        axis.set_xlabel(label)
+        axis.set_ylabel(f"-F{'xy'[force - 3]} / (mu N) [-]")
+        axis.set_ylim(0.0, 1.05)
+        axis.grid(alpha=0.3)
+    axes.flat[0].legend(fontsize="small")
+    last = axes.flat[3]
+    for i, result in enumerate(r for r in measured["laws"] if r["law"] != "linear"):
+        mean = np.sqrt(np.mean(np.square(list(result["rms_error"].values()))))
+        last.loglog(result["cost_us"], mean, "osD^vPX*<"[i], markersize=7, label=result["label"])
+    last.axvline(40.0, color="0.5", linestyle="--")
+    last.text(36.0, 0.62, "CONTACT: Hertz + FASTSIM", rotation=90, fontsize=7, ha="right")
+    last.axvline(330.0, color="0.5", linestyle="--")
+    last.text(297.0, 0.62, "CONTACT: KPEC + FASTSIM", rotation=90, fontsize=7, ha="right")
+    last.set_xlim(0.02, 1000.0)
+    last.set_ylim(0.5, 50.0)
+    last.set_xlabel("cost of a call [us]")
+    last.set_ylabel("rms error of all sets [% of mu N]")
+    last.grid(alpha=0.3)
+    last.legend(fontsize=7, loc="upper right", framealpha=1.0)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def main() -> None:
+    """Measure, print the table or json, draw on request."""
+    parser = argparse.ArgumentParser(description="Accuracy and cost of the creep laws.")
+    parser.add_argument("--json", action="store_true", help="print json instead of the table")
+    parser.add_argument("--figure", type=Path, help="draw the comparison into this file")
+    arguments = parser.parse_args()
+    measured = measure()
+    if arguments.json:
+        print(json.dumps(measured, indent=1))
+    else:
+        print("Largest distance to CONTACT [% of mu N] by set, and cost of a call:\n")
+        print(table(measured))
+    if arguments.figure:
+        draw(measured, arguments.figure)
+
+
+if __name__ == "__main__":
+    main()
