@@ -43,7 +43,7 @@ def draw_moment_and_coefficients(path: Path) -> None:
         axis.set_xlabel(label)
         axis.set_ylabel("M_z [N m]")
         axis.grid(alpha=0.3)
-    axes[0].legend(fontsize="small")
+    axes[1].legend(fontsize="small")
     ratios = np.geomspace(0.02, 50.0, 1501)
     values = np.array([kalker_coefficients(ratio, 1.0, 0.28) for ratio in ratios])
     for i, name in enumerate(("C11", "C22", "C23", "C33")):

@@ -21,8 +21,8 @@ A cell that reaches the bound sticks up to it and slips for the rest; during sli
 of p turns towards that of the rigid slip w,  d(angle)/dx = |w| sin(angle)/(L |p|),  solved in
 closed form for a cell. So the error falls with the square of the cell size, where cutting p back
 to the bound cell by cell leaves an error of first order (spin of 0.5 to 2 1/m alone, 10 x 10
-cells: 0.1 to 1.2 % against 1.3 to 6.7 %). Strips +y and -y run together, so mirrored input gives mirrored output
-bit by bit.
+cells: 0.1 to 1.2 % against 1.3 to 6.7 %). Strips +y and -y run together, so mirrored
+input gives mirrored output bit by bit.
 
 Smoothness: continuous. One flexibility: L is smooth but at the origin; with spin present the
 slope of F over xi at xi = 0 is that of L_3, so Kalker's linear limit holds for one creepage at a
