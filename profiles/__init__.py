@@ -1,0 +1,1 @@
+"""Profile files that come with the package, read with importlib.resources."""

@@ -4,8 +4,8 @@ What every format has in common. Faults that a reader of the file must mend are 
 line; what can be decided is decided, and said in the profile's remarks.
 
 Order of the steps: unit to metres; outliers, if a tolerance is given; points in the direction of
-growing y; overhanging ends cut off; kind and orientation from the shape; the file's and the
-caller's shifts; datum.
+growing y; overhanging ends cut off; kind and orientation from the shape; the caller's
+shift; datum.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
     points = np.column_stack((raw.y, raw.z)).astype(np.float64)
     points *= _unit_factor(raw, points, label, options.unit, remarks)
 
-    _check_doubled(points, lines, label, raw.trusted, options.outlier_tolerance)
+    _check_doubled(points, lines, label, options.outlier_tolerance)
     if options.outlier_tolerance is not None:
         keep = _without_outliers(points, options.outlier_tolerance, lines, label, remarks)
         points, lines = points[keep], lines[keep]
@@ -169,7 +169,7 @@ def _check_lost_points(raw: RawProfile, points: FloatArray, label: str, unit: st
 
 
 def _check_doubled(
-    points: FloatArray, lines: IntArray, label: str, trusted: bool, tolerance: float | None
+    points: FloatArray, lines: IntArray, label: str, tolerance: float | None
 ) -> None:
     same = np.flatnonzero(np.max(np.abs(np.diff(points, axis=0)), axis=1) < _CLOSEST)
     if len(same) and tolerance is None:

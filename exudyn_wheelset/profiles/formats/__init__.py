@@ -1,0 +1,1 @@
+"""Readers and writers of profile files, one module a format; see `raw` for their interface."""

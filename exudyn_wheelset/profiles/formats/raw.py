@@ -48,7 +48,6 @@ class RawProfile:
 
     y, z: numbers in the file's unit; lines: the line each point stands on, counted from 1.
     unit: one of UNITS, or None where the file does not say; unit_line, kind_line: where it says.
-    shift: added to y and z after conversion [m].
     trusted: the file says that it is in the package's frame, so nothing is turned or shifted.
     rail_datum: the format has no head centre; y = 0 is put midway between the flanks of a rail.
     """
@@ -64,7 +63,6 @@ class RawProfile:
     unit: str | None = None
     unit_line: int | None = None
     remarks: list[str] = field(default_factory=list)
-    shift: tuple[float, float] = (0.0, 0.0)
     trusted: bool = False
     rail_datum: bool = False
 

@@ -20,7 +20,6 @@ from exudyn_wheelset.profiles.formats.raw import (
     RawProfile,
     coordinate,
     fault,
-    number,
     shorten,
     unit_word,
 )
@@ -168,16 +167,6 @@ def _columns(raw: RawProfile, words: list[tuple[int, str]], split: Split) -> tup
             if first in names and second in names:
                 return names.index(first), names.index(second)
     return 0, 1
-
-
-def looks_like(lines: list[str]) -> bool:
-    """Whether the first line that is neither blank nor a comment has two numbers."""
-    for line in lines[:200]:
-        text = line.strip()
-        if text and not text.startswith(_COMMENT):
-            tokens = re.split(r"[\s;,]+", text)
-            return len(tokens) > 1 and all(number(token) is not None for token in tokens[:2])
-    return False
 
 
 def _one_line(text: str) -> str:
