@@ -115,8 +115,8 @@ def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | N
 
 
 def _bundled(name: str) -> Profile | None:
-    plain = re.sub(r"[\s_-]+", "", name).lower()
-    cone = re.fullmatch(r"cone(?:1[:/]?(\d+)|(\d*\.\d+))", plain, re.ASCII)
+    plain = re.sub(r"[\s_:-]+", "", name).lower()
+    cone = re.fullmatch(r"cone(?:1/?(\d+)|(\d*\.\d+))", plain, re.ASCII)
     if cone:
         denominator = int(cone[1]) if cone[1] else 0
         if cone[1] and not denominator:
