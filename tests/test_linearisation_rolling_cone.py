@@ -125,6 +125,6 @@ def test_growth_rate_of_simulated_motion(wheelset, critical, ratio):
     amplitude = motion @ np.linalg.inv(linear.eigenvectors)[index]
     growth = np.polyfit(times, np.log(np.abs(amplitude)), 1)[0]
     frequency = np.polyfit(times, np.unwrap(np.angle(amplitude)), 1)[0]
-    # Amplitudes of 10 micrometres: the creep law's curvature leaves less than 1e-4 of the frequency.
+    # Amplitudes of 10 micrometres: the creep law's curvature leaves less than 1e-4.
     assert growth == pytest.approx(root.real, abs=1e-4 * root.imag)
     assert frequency == pytest.approx(root.imag, rel=1e-4)

@@ -28,6 +28,8 @@ from exudyn_wheelset.errors import AnalysisError
 # Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
 DISPLACEMENT_SCALE = 1.0e-3
 VELOCITY_SCALE = 1.0e-2
+# Forward speed [m/s] while the model is taken over, before any analysis sets its own.
+FIRST_SPEED = 10.0
 
 
 class ExudynSystem(DynamicSystem):
@@ -36,7 +38,8 @@ class ExudynSystem(DynamicSystem):
     mbs             the MainSystem; sensors of the nodes are added and it is assembled here, so
                     nothing may be added to it afterwards
     SC              its SystemContainer, which is kept alive
-    set_speed       called as set_speed(mbs, speed) before the first evaluation at a speed [m/s]
+    set_speed       called as set_speed(mbs, speed) before the first evaluation at a speed [m/s],
+                    and once here
     spinning_nodes  nodes of axisymmetric bodies that spin about their own y axis, whose spin angle
                     is cyclic; as a mapping node -> rolling radius [m] the steady spin
                     speed/radius is where the search for the equilibrium starts
@@ -89,6 +92,8 @@ class ExudynSystem(DynamicSystem):
         self._settings = _copy_settings(settings)
 
         self._add_sensors()
+        # Exudyn evaluates the loads when a solver begins, so that they need some speed by then.
+        set_speed(mbs, FIRST_SPEED)
         mbs.Assemble()
         self._data: Any = mbs.systemData
         self._initialise_solver()
@@ -295,7 +300,14 @@ class ExudynSystem(DynamicSystem):
         settings = _copy_settings(self._settings)
         settings.solution.sensors.active = False
         solver: Any = exu.MainSolverImplicitSecondOrder()
-        solver.InitializeSolver(self.mbs, settings)
+        try:
+            with _Quiet():
+                solver.InitializeSolver(self.mbs, settings)
+        except Exception as error:
+            raise AnalysisError(
+                f"{self.name}: the model cannot be evaluated in its initial configuration at "
+                f"{FIRST_SPEED:g} m/s: {_reason(error)}"
+            ) from error
         self._solver = solver
         self._order2 = solver.GetODE2size()
         self._order1 = solver.GetODE1size()
