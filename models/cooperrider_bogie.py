@@ -8,17 +8,15 @@ Run `python models/cooperrider_bogie.py`; with `--json` it prints only its numbe
     amplitude_mm  lateral amplitude of the leading wheelset (half of peak to peak) [mm] of the
                   stable limit cycle, by speed in m/s
 
-`--descent` finds the fold a second time by simulating quasi-static descent, `--reference` takes
-the equations written out without Exudyn, `--out` keeps the bifurcation diagram and its data.
+`--descent` finds the fold a second time by simulating quasi-static descent (`--settings` names a
+file of Exudyn solver settings for it), `--reference` takes the equations written out without
+Exudyn. The bifurcation diagram and its data land under `--out`.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import os
-import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +25,9 @@ from exudyn_wheelset.analyses.limit_cycles import limit_cycles
 from exudyn_wheelset.analyses.linear import CriticalPoint, linear_critical_speed
 from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.analyses.system import DynamicSystem
+from exudyn_wheelset.front.output import write_figure, write_json
+from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.settings import load_settings
 from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES, cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
@@ -68,36 +69,46 @@ def run(
 
 
 def main(argv: Sequence[str] | None = None) -> dict[str, Any]:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--json", action="store_true", help="print the numbers only")
-    parser.add_argument("--speeds", type=float, nargs="+", default=[70.0, 75.0], metavar="M/S")
+    """Run the script; returns its numbers, leaves by SystemExit after an error."""
+    parser = script_parser(__doc__.splitlines()[0])
+    parser.add_argument(
+        "--speeds", type=float, nargs="+", default=[70.0, 75.0], help="speeds of the amplitudes"
+    )
     parser.add_argument("--descent", action="store_true", help="find the fold by descent as well")
     parser.add_argument("--reference", action="store_true", help="equations without Exudyn")
-    parser.add_argument("--out", type=Path, help="directory for the diagram and its data")
-    arguments = parser.parse_args(argv)
+    numbers: dict[str, Any] = {}
 
-    system = cooperrider_reference_system() if arguments.reference else cooperrider_system()
+    def compute(arguments: argparse.Namespace) -> dict[str, Any]:
+        numbers.update(_compute(arguments))
+        return numbers
+
+    status = run_script(compute, parser, argv, show=_print_table)
+    if status:
+        raise SystemExit(status)
+    return numbers
+
+
+def _compute(arguments: argparse.Namespace) -> dict[str, Any]:
+    if arguments.reference:
+        system: DynamicSystem = cooperrider_reference_system()
+    else:
+        settings = load_settings(arguments.settings) if arguments.settings else None
+        system = cooperrider_system(settings=settings)
     progress = not arguments.json
     numbers, hopf, branch = run(system, arguments.speeds, progress)
     if arguments.descent:
         descent = nonlinear_critical_speed(system, "descent", hopf=hopf, progress=progress)
         numbers["fold_by_descent"] = float(descent)
-    if arguments.out:
-        arguments.out.mkdir(parents=True, exist_ok=True)
-        branch.save(arguments.out / "cooperrider_bogie.npz")
-        _replace(arguments.out / "cooperrider_bogie.json", lambda to: _write(numbers, to))
-        _replace(arguments.out / "cooperrider_bogie.png", lambda to: _draw(branch, to))
-    if arguments.json:
-        print(json.dumps(numbers))
-    else:
-        _print_table(numbers, hopf)
+    write_json(arguments.out / "cooperrider_bogie.json", numbers, system=system.measures())
+    branch.save(arguments.out / "cooperrider_bogie.npz")
+    _draw(branch, arguments.out / "cooperrider_bogie.png")
     return numbers
 
 
-def _print_table(numbers: dict[str, Any], hopf: CriticalPoint) -> None:
+def _print_table(numbers: dict[str, Any]) -> None:
     fold = numbers["fold"]
     rows = [
-        ("linear critical speed (Hopf)", f"{numbers['hopf']:.3f} m/s at {hopf.frequency:.3f} Hz"),
+        ("linear critical speed (Hopf)", f"{numbers['hopf']:.3f} m/s"),
         ("nonlinear critical speed (fold)", "none" if fold is None else f"{fold:.3f} m/s"),
     ]
     if "fold_by_descent" in numbers:
@@ -121,20 +132,9 @@ def _draw(branch: Branch, path: Path) -> None:
     axes.set_title("Cooperrider bogie")
     axes.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(path, dpi=120, format="png")
+    write_figure(path, figure)
     plt.close(figure)
 
 
-def _write(numbers: dict[str, Any], path: Path) -> None:
-    path.write_text(json.dumps(numbers, indent=2) + "\n", encoding="utf-8")
-
-
-def _replace(path: Path, write: Callable[[Path], None]) -> None:
-    """Write a file whole or not at all."""
-    part = path.with_name(path.name + ".part")
-    write(part)
-    os.replace(part, path)
-
-
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -93,7 +93,7 @@ def test_the_unstable_branch_is_the_edge_of_the_basin(result):
 def test_the_script_in_exudyn_agrees_with_the_reference_equations(script, result, tmp_path, capsys):
     numbers = script.main(["--json", "--out", str(tmp_path)])
     assert json.loads(capsys.readouterr().out) == numbers
-    assert json.loads((tmp_path / "cooperrider_bogie.json").read_text()) == numbers
+    assert json.loads((tmp_path / "cooperrider_bogie.json").read_text())["numbers"] == numbers
     assert (tmp_path / "cooperrider_bogie.png").stat().st_size > 10000
     expected = result[0]
     # The creep law has |xi| xi in it, where central differences are of first order: 1e-6 relative.

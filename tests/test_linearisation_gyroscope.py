@@ -132,6 +132,24 @@ def test_simulated_nutation_follows_the_state_equations(solver):
     assert np.abs((states - reference) / size).max() < tolerance
 
 
+def test_solver_settings_give_solver_and_step():
+    given = exu.SimulationSettings()
+    given.timeIntegration.solverType = exu.DynamicSolverType.GeneralizedAlpha
+    given.timeIntegration.endTime = 2.0
+    given.timeIntegration.numberOfSteps = 1000
+    given.timeIntegration.generalizedAlpha.spectralRadius = 0.5
+    start = 0.01 * np.eye(11)[1]
+    times = np.linspace(0.0, 0.5, 6)
+    damped = rotor(settings=given)
+    assert damped.step == 2e-3
+    assert damped.measures()["solver"] == "GeneralizedAlpha"
+    motion = damped.simulate(start, 0.0, times)
+    assert given.timeIntegration.numberOfSteps == 1000
+    given.timeIntegration.generalizedAlpha.spectralRadius = 1.0
+    assert np.abs(rotor(settings=given).simulate(start, 0.0, times) - motion).max() > 1e-6
+    assert rotor(settings=given, solver_type="RK44", step=1e-4).measures()["step"] == 1e-4
+
+
 def test_times_at_unequal_distances_are_interpolated():
     system = rotor(step=1e-3)
     start = system.equilibrium(10.0)
