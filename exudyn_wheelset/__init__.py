@@ -1,1 +1,70 @@
-"""Profiled wheels on profiled rails for the multibody engine Exudyn."""
+"""Profiled wheels on profiled rails for the multibody engine Exudyn.
+
+    from exudyn_wheelset import Track, Wheelset, create_wheelset
+    items = create_wheelset(mbs, Wheelset(...), Track(rail="UIC60"), speed=30)
+"""
+
+from importlib import metadata
+
+from exudyn_wheelset.compilation import drop_stale_kernels
+
+try:
+    __version__ = metadata.version("exudyn-wheelset")
+except metadata.PackageNotFoundError:
+    __version__ = "0+source"
+
+drop_stale_kernels()
+
+_PLACES = {
+    "AnalysisError": "errors",
+    "Branch": "analyses.branch",
+    "ContactError": "errors",
+    "DynamicSystem": "analyses.system",
+    "ExudynSystem": "analyses.exudyn_system",
+    "FunctionSystem": "analyses.system",
+    "LateralParameters": "vehicles.lateral_wheelset",
+    "LateralWheelset": "vehicles.lateral_wheelset",
+    "Profile": "profiles",
+    "ProfileError": "errors",
+    "SettingsError": "errors",
+    "Suspension": "vehicles.wheelset_on_frame",
+    "Track": "contact.descriptions",
+    "WheelRailContact": "coupling.wheel_rail",
+    "Wheelset": "contact.descriptions",
+    "WheelsetError": "errors",
+    "WheelsetItems": "coupling.create",
+    "WheelsetOnFrame": "vehicles.wheelset_on_frame",
+    "contact_forces": "contact.wheelset_contact",
+    "contact_geometry": "contact.rigid",
+    "create_wheelset": "coupling.create",
+    "creep_force": "creep",
+    "equivalent_conicity": "analyses.conicity",
+    "hopf_points": "analyses.linear",
+    "limit_cycles": "analyses.limit_cycles",
+    "linear_critical_speed": "analyses.linear",
+    "linearise": "analyses.linear",
+    "load_profile": "profiles",
+    "load_settings": "front.settings",
+    "nonlinear_critical_speed": "analyses.nonlinear",
+    "paper_parameters": "vehicles.lateral_wheelset",
+    "piecewise_geometry": "contact.piecewise",
+    "root_locus": "analyses.linear",
+    "save_profile": "profiles",
+}
+
+__all__ = sorted([*_PLACES, "__version__"])  # noqa: PLE0605
+
+
+def __getattr__(name: str) -> object:
+    # Names load on first use: reading a profile need not import Exudyn and the compiler.
+    if name in _PLACES:
+        from importlib import import_module
+
+        value = getattr(import_module(f"exudyn_wheelset.{_PLACES[name]}"), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module 'exudyn_wheelset' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from exudyn_wheelset.analyses.collocation import Orbit
+from exudyn_wheelset.analyses.orbit import Orbit
 from exudyn_wheelset.analyses.records import read_record, write_record
 from exudyn_wheelset.analyses.system import Array
 from exudyn_wheelset.errors import AnalysisError
@@ -29,7 +29,7 @@ KIND = "branch of limit cycles"
 class NamedColumns(np.ndarray):
     """An array (points, columns) whose columns are also reached by name: table["y [m]"].
 
-    A name may be given without its unit as long as it is the only one that begins so.
+    The first words of a name do, its unit left out, if no other name begins so.
     """
 
     names: tuple[str, ...]
@@ -52,13 +52,17 @@ class NamedColumns(np.ndarray):
 
 
 def column_index(names: Sequence[str], name: str) -> int:
-    """Position of a name, with or without its unit; raises AnalysisError if not exactly one."""
+    """Position of a name; its first words do if they tell it from the others ("y", "q1").
+
+    Raises AnalysisError if no name or more than one fits.
+    """
     if name in names:
         return list(names).index(name)
-    bare = [index for index, known in enumerate(names) if known.split(" [")[0] == name]
-    if len(bare) != 1:
-        raise AnalysisError(f"{name!r} is not one of {', '.join(names)}")
-    return bare[0]
+    for ending in (" [", " "):
+        fitting = [index for index, known in enumerate(names) if known.startswith(name + ending)]
+        if len(fitting) == 1:
+            return fitting[0]
+    raise AnalysisError(f"{name!r} is not one of {', '.join(names)}")
 
 
 @dataclass(frozen=True, eq=False)

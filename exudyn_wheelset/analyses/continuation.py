@@ -23,21 +23,10 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from exudyn_wheelset.analyses.collocation import (
-    DEGREE,
-    INTERVALS,
-    Collocation,
-    Condensed,
-    Direction,
-    Functional,
-    Orbit,
-    OrbitError,
-    Solution,
-    balanced_mesh,
-    solve_orbit,
-    speed_row,
-)
+from exudyn_wheelset.analyses.collocation import Collocation, Condensed, Direction, Functional
+from exudyn_wheelset.analyses.corrector import Solution, solve_orbit, speed_row
 from exudyn_wheelset.analyses.linear import CriticalPoint
+from exudyn_wheelset.analyses.orbit import DEGREE, INTERVALS, Orbit, OrbitError, balanced_mesh
 from exudyn_wheelset.analyses.system import Array
 from exudyn_wheelset.errors import AnalysisError
 

@@ -3,8 +3,9 @@
 Below the linear critical speed the straight run and the limit cycle may both be stable. At each
 speed the vehicle starts from its equilibrium with one displacement, velocity or mode disturbed,
 and is simulated until the peaks of a watched displacement say whether it hunts or dies out. The
-amplitude between the two is found by bisection. A motion close to the edge lingers near the
-unstable limit cycle, so its peaks there give a second, simulated value of the unstable branch.
+amplitude between the two is found by bisection. Two motions from either side of the edge stay
+together near the unstable limit cycle before one grows and one dies; their peaks where they part
+are a second, simulated value of the unstable branch.
 
 Speeds in m/s; disturbances in the unit of the disturbed state.
 """
@@ -39,10 +40,11 @@ class CriticalDisturbances:
 
     speeds      (k,) [m/s]
     critical    (k,) disturbance between the bracket's ends, in the unit of the disturbed state;
-                inf if the largest and seven smaller ones (steps of 0.7) die out, 0 if even the smallest hunts
+                inf if the largest and seven smaller ones (steps of 0.7) die out, 0 if even
+                the smallest hunts
     bracket     (k, 2) largest that died out and smallest that hunted
-    edge        (k,) amplitude (half of peak to peak) of the watched displacement where the
-                motions of the bracket changed least: the unstable limit cycle; nan if unknown
+    edge        (k,) amplitude (half of peak to peak) of the watched displacement where the two
+                motions of the bracket part: the unstable limit cycle; nan if unknown
     runs        number of simulations
     time        simulated in total [s]
     direction   what was disturbed
@@ -180,27 +182,26 @@ class _Search:
         trials = largest * 0.7 ** np.arange(8)
         trials = trials[trials > smallest]
         for high in map(float, trials):
-            outcome, edge = self.run(high)
+            outcome, hunting = self.run(high)
             if outcome != "dies out":
                 break
         else:
             return np.inf, largest, np.inf, np.nan
-        outcome, edge = self.run(smallest)
+        outcome, dying = self.run(smallest)
         if outcome != "dies out":
             return 0.0, 0.0, smallest, np.nan
         low = smallest
         while high - low > tolerance * high:
             middle = float(np.sqrt(low * high)) if high > 4.0 * low else 0.5 * (low + high)
-            outcome, amplitude = self.run(middle)
-            edge = amplitude if np.isfinite(amplitude) else edge
+            outcome, means = self.run(middle)
             if outcome == "dies out":
-                low = middle
+                low, dying = middle, means
             else:
-                high = middle
-        return 0.5 * (low + high), low, high, edge
+                high, hunting = middle, means
+        return 0.5 * (low + high), low, high, _parting(dying, hunting)
 
-    def run(self, amplitude: float) -> tuple[Outcome, float]:
-        """Outcome of one disturbance, and the amplitude where the motion changed least."""
+    def run(self, amplitude: float) -> tuple[Outcome, list[float]]:
+        """Outcome of one disturbance, and the amplitudes of the watched motion by blocks."""
         self.runs += 1
         motion = Motion(
             self.system,
@@ -212,16 +213,16 @@ class _Search:
         )
         while True:
             verdict = motion.advance()
-            if verdict == "undecided" and motion.cycles < self.settling.cycles:
-                if not _grows(motion.means):
-                    continue
-                outcome: Outcome = "hunts"
-            elif verdict == "dying out":
+            ended = motion.cycles >= self.settling.cycles
+            if verdict == "undecided" and not ended and not _grows(motion.means):
+                continue
+            outcome: Outcome = "hunts"
+            if verdict == "lost contact":
+                outcome = "lost contact"
+            elif verdict == "dying out" or (verdict == "undecided" and _shrinks(motion.means)):
                 outcome = "dies out"
-            else:
-                outcome = "lost contact" if verdict == "lost contact" else "hunts"
             self.time += motion.time
-            return outcome, _least_change(motion.means)
+            return outcome, motion.means
 
 
 def _grows(means: list[float]) -> bool:
@@ -235,12 +236,20 @@ def _grows(means: list[float]) -> bool:
     return bool(np.all(logs > 0.0) and np.sum(logs) > GROWTH)
 
 
-def _least_change(means: list[float]) -> float:
-    if len(means) < 4:
+def _shrinks(means: list[float]) -> bool:
+    """Whether the amplitude has fallen over the second half of the motion, in each quarter."""
+    quarter = max(1, len(means) // 4)
+    return means[-1] < means[-1 - quarter] < means[-1 - 2 * quarter] if len(means) > 2 else False
+
+
+def _parting(dying: list[float], hunting: list[float]) -> float:
+    """Geometric mean of two motions in the last block in which they differ by less than 20 %."""
+    count = min(len(dying), len(hunting))
+    low, high = np.array(dying[:count]), np.array(hunting[:count])
+    together = np.flatnonzero(np.abs(np.log(high / low)) < 0.2)
+    if len(together) == 0:
         return np.nan
-    logs = np.abs(np.diff(np.log(np.maximum(means[1:], 1e-300))))
-    index = int(np.argmin(logs)) + 1
-    return float(np.sqrt(means[index] * means[index + 1]))
+    return float(np.sqrt(low[together[-1]] * high[together[-1]]))
 
 
 def _disturbance(

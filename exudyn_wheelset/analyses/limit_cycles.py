@@ -18,7 +18,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.analyses.branch import Branch, Fold, NamedColumns, StabilityChange
-from exudyn_wheelset.analyses.collocation import Collocation, Orbit
+from exudyn_wheelset.analyses.collocation import Collocation
 from exudyn_wheelset.analyses.continuation import (
     ContinuationSettings,
     Point,
@@ -26,6 +26,7 @@ from exudyn_wheelset.analyses.continuation import (
     hopf_start,
 )
 from exudyn_wheelset.analyses.linear import CriticalPoint
+from exudyn_wheelset.analyses.orbit import Orbit
 from exudyn_wheelset.analyses.records import describe
 from exudyn_wheelset.analyses.settling import orbit_near, watched_index
 from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system

@@ -6,8 +6,8 @@ blocks, and three block means A1, A2, A3 decide. If their differences shrink by 
 r = (A3 - A2)/(A2 - A1), the geometric series puts the rest of the way at (A3 - A2) r/(1 - r):
 
 - settled     if that rest is below `tolerance` A3 and the last step is small too;
-- dying out   if A3 is below `rest` (and a fifth of where it began), or if the amplitude has fallen
-              to less than half of its largest and log A falls at a rate that does not slow down;
+- dying out   if A3 is below `rest` (and a fifth of where it began), if log A falls steadily and A
+              is half of its largest, or if log A falls ever faster over eight blocks;
 - undecided   otherwise, e.g. in the slow passage past a fold, where r is about 1.
 
 Amplitudes in m or rad, times in s.
@@ -22,19 +22,14 @@ from typing import Literal
 import numpy as np
 
 from exudyn_wheelset.analyses.branch import column_index
-from exudyn_wheelset.analyses.collocation import (
-    DEGREE,
-    INTERVALS,
-    Collocation,
-    Orbit,
-    orbit_from_samples,
-    solve_orbit,
-    speed_row,
-)
+from exudyn_wheelset.analyses.collocation import Collocation
+from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
+from exudyn_wheelset.analyses.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
 from exudyn_wheelset.analyses.system import Array, DynamicSystem
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 
 SAMPLES = 64
+TREND = 8
 State = Literal["undecided", "settled", "dying out", "lost contact"]
 
 
@@ -147,11 +142,22 @@ class Motion:
         if max(abs(step) for step in steps) < 0.03 * allowed:
             return "settled"
         logs = np.diff(np.log(self.means[-4:]))
-        falls = np.all(logs < -1e-3) and logs[1] < 0.97 * logs[0] and logs[2] < 0.97 * logs[1]
         steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
-        if fourth < 0.5 * max(self.means) and (falls or steady):
+        if (steady and fourth < 0.5 * max(self.means)) or self._falls_away():
             return "dying out"
         return "undecided"
+
+    def _falls_away(self) -> bool:
+        """Whether the amplitude has fallen over TREND blocks, the faster the lower it is.
+
+        That is how a motion leaves an unstable limit cycle, or the place where a fold has been;
+        on the way down to a stable one the fall slows down.
+        """
+        if len(self.means) < TREND + 1:
+            return False
+        logs = np.diff(np.log(self.means[-TREND - 1 :]))
+        first, second = np.sum(logs[: TREND // 2]), np.sum(logs[TREND // 2 :])
+        return bool(np.all(logs < 0.0) and second < 1.1 * first and first + second < -0.01)
 
 
 def watched_index(system: DynamicSystem, watch: str | int | None = None) -> int:

@@ -129,7 +129,8 @@ class WheelRailContact:
         self.reference = np.array(mbs.GetNodeParameter(node, "referenceCoordinates")[:3])
         self.first = -1
 
-    def _place(self, mbs: Any) -> None:
+    def place(self, mbs: Any) -> None:
+        """Look up where the body stands in the assembled system."""
         indices = mbs.systemData.GetNodeLTGODE2(self.node)
         self.first = int(indices[0])
 
@@ -143,7 +144,7 @@ class WheelRailContact:
 
     def _wrench(self, mbs: Any, t: float, part: int) -> tuple[float, float, float]:
         if self.first < 0:
-            self._place(mbs)
+            self.place(mbs)
         data = mbs.systemData
         q = data.GetODE2Coordinates()
         if self.irregularity is not None:
@@ -177,7 +178,7 @@ class WheelRailContact:
     def evaluate(self, mbs: Any, configuration: Any = None) -> np.ndarray:
         """Result array at the system's state, kept apart from the solver's."""
         if self.first < 0:
-            self._place(mbs)
+            self.place(mbs)
         arguments = () if configuration is None else (configuration,)
         data = mbs.systemData
         body_wrench(

@@ -20,6 +20,7 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 
 GRAVITY = 9.81
 
@@ -50,7 +51,8 @@ class WheelsetOnFrame:
     """A wheelset with its suspension, load and contact, ready to be built at any speed.
 
     axle_load [N]: what both wheels carry, the wheelset's weight included; contact: keyword
-    arguments of `contact_parameters` (normal, creep, friction, shear_modulus, poisson, damping).
+    arguments of `contact_parameters` (normal, creep, friction, shear_modulus, poisson, damping);
+    driven: the spin is held at V/radius (spin_drive.py), otherwise the wheelset rolls freely.
     """
 
     wheelset: Wheelset
@@ -58,6 +60,7 @@ class WheelsetOnFrame:
     suspension: Suspension
     axle_load: float
     contact: dict[str, Any] = field(default_factory=dict)
+    driven: bool = False
     name: str = "wheelset on frame"
 
     def __post_init__(self) -> None:
@@ -99,6 +102,8 @@ class WheelsetOnFrame:
                 )
             )
             mbs.AddLoad(LoadForceVector(markerNumber=end, loadVector=[0.0, 0.0, -0.5 * spare]))
+        if self.driven:
+            create_spin_drive(mbs, items, self.wheelset.radius)
         return items
 
     def build(self, speed: float, **options: Any) -> tuple[Any, Any, WheelsetItems]:
@@ -110,7 +115,9 @@ class WheelsetOnFrame:
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
         container, mbs, items = self.build(20.0, sensors=False, show=False)
-        rolling = contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0]
+        rolling = self.wheelset.radius
+        if not self.driven:
+            rolling = contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0]
         return ExudynSystem(
             mbs,
             container,
@@ -135,4 +142,5 @@ class WheelsetOnFrame:
             "suspension": asdict(self.suspension),
             "axle_load": self.axle_load,
             "contact": dict(self.contact),
+            "driven": self.driven,
         }

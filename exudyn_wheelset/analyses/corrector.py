@@ -1,0 +1,144 @@
+"""Correction of a guess to a periodic orbit: Newton's method that spares Jacobians.
+
+The Jacobians of f along an orbit cost n times as much as its defects, and those of a neighbour are
+nearly right. So the equations condensed at a neighbour are kept, and Broyden's rank-one formula
+corrects them from step to step (Kelley, Iterative Methods for Linear and Nonlinear Equations,
+SIAM 1995, section 7.3). Corners of f (flange, saturated creep, lift-off) are passed by halving
+steps and by new Jacobians where the old ones no longer serve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from exudyn_wheelset.analyses.collocation import Collocation, Condensed, Direction, Functional
+from exudyn_wheelset.analyses.orbit import Orbit, OrbitError
+from exudyn_wheelset.analyses.system import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A converged orbit, the last condensed equations (near it, not at it) and Newton's steps."""
+
+    orbit: Orbit
+    condensed: Condensed
+    iterations: int
+    refreshed: int
+
+
+def solve_orbit(
+    equations: Collocation,
+    guess: Orbit,
+    row: Functional,
+    target: float = 0.0,
+    condensed: Condensed | None = None,
+    reference: Orbit | None = None,
+    tolerance: float = 1e-9,
+    iterations: int = 25,
+    contraction: float = 0.6,
+) -> Solution:
+    """Periodic orbit near `guess` on which `row` of (orbit - guess) has the value `target`.
+
+    Newton's method with the equations `condensed` at a neighbour: from step to step they are kept
+    and corrected by Broyden's rank-one formula (Kelley, Iterative Methods for Linear and
+    Nonlinear Equations, SIAM 1995, section 7.3). Only when a correction is larger than
+    `contraction` times the one before are the Jacobians computed anew. A step that does not
+    reduce the defects is halved. Converged when the correction, relative to the size of the orbit,
+    is below `tolerance` (in the largest component). Raises OrbitError.
+    """
+    reference = reference or guess
+    phase = equations.phase(reference)
+    orbit = guess
+    defects = equations.defects(orbit)
+    fresh = condensed is None
+    refreshed = 0
+    if condensed is None:
+        condensed = equations.condense(orbit)
+        refreshed = 1
+    size = max(equations.size(guess), 1e-12)
+    previous = np.inf
+    steps: list[Direction] = []
+    for iteration in range(1, iterations + 1):
+        moved = equations.difference(orbit, guess)
+        apart = equations.difference(orbit, reference)
+        values = [
+            -phase(apart.orbit, 0.0, 0.0),
+            target - row(moved.orbit, moved.period, moved.speed),
+        ]
+        step = _broyden(condensed.solve(defects, [phase, row], values), steps)
+        length = _relative_size(step, size, orbit, equations)
+        if not np.isfinite(length):
+            raise OrbitError("Newton's correction is not finite")
+        if length < tolerance:
+            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed)
+        if not fresh and length > contraction * previous:
+            # Rounding of f, or a corner of f that is crossed to and fro, sets a floor.
+            if length < 1e3 * tolerance and refreshed:
+                return Solution(orbit, condensed, iteration, refreshed)
+            condensed = equations.condense(orbit)
+            refreshed += 1
+            fresh = True
+            previous = np.inf
+            steps = []
+            continue
+        orbit, defects, factor = _damped(equations, orbit, defects, step, length)
+        steps = [*steps, step] if factor == 1.0 else []
+        previous = length
+        fresh = False
+    raise OrbitError(
+        f"Newton did not converge in {iterations} steps at {orbit.speed:.4f} m/s; the last "
+        f"correction was {previous:.2g} of the orbit"
+    )
+
+
+def _broyden(step: Direction, steps: list[Direction]) -> Direction:
+    """The correction by the kept equations, improved by what the steps before have shown."""
+    vector = step.vector()
+    for index, taken in enumerate(steps):
+        before = taken.vector()
+        square = float(before @ before)
+        share = float(before @ vector) / square
+        if index + 1 < len(steps):
+            vector = vector + share * steps[index + 1].vector()
+        elif share < 0.9:
+            vector = vector / (1.0 - share)
+    return Direction.from_vector(vector, step.orbit.shape)
+
+
+def speed_row(orbit: Orbit, size: int) -> Functional:
+    """The row that holds the speed fixed."""
+    shape = (len(orbit.mesh) - 1, orbit.degree + 1, size)
+    return Functional(np.zeros(shape), 0.0, 1.0)
+
+
+def _relative_size(step: Direction, size: float, orbit: Orbit, equations: Collocation) -> float:
+    return max(
+        float(np.abs(step.orbit).max()) / size,
+        abs(step.period) * equations.period_unit / orbit.period,
+        abs(step.speed) * equations.speed_unit / max(1.0, abs(orbit.speed)),
+    )
+
+
+def _damped(
+    equations: Collocation, orbit: Orbit, defects: Array, step: Direction, length: float
+) -> tuple[Orbit, Array, float]:
+    """The orbit after a step, halved while it makes the defects grow or leaves the model."""
+    before = float(np.linalg.norm(defects))
+    factor = 1.0
+    while True:
+        trial = equations.moved(orbit, step, factor)
+        if trial.period > 0.0:
+            try:
+                after = equations.defects(trial)
+            except OrbitError:
+                if factor < 0.1:
+                    raise
+            else:
+                # Near the solution the defects may be rounding: small steps are taken whole.
+                if length < 1e-3 or factor < 0.1 or np.linalg.norm(after) < 2.0 * before:
+                    return trial, after, factor
+        elif factor < 0.1:
+            raise OrbitError("Newton's correction makes the period negative")
+        factor *= 0.5

@@ -1,0 +1,179 @@
+"""A periodic motion as a piecewise polynomial of its phase, and the mesh that suits it.
+
+The motion over one period T is x(s T) for the phase s in [0, 1]. On each of N mesh intervals it is
+a polynomial of degree m, held by its values at m + 1 equidistant points; neighbours share their
+end point, and the last point is the first again. States in SI units and radians, T in s, the
+speed in m/s.
+
+The mesh is spread by de Boor's rule as in AUTO (Russell and Christiansen, SIAM J. Numer. Anal. 15
+(1978) 59): each interval takes an equal share of |d^(m+1)x/ds^(m+1)|^(1/(m+1)).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import comb
+
+import numpy as np
+
+from exudyn_wheelset.analyses.system import Array
+from exudyn_wheelset.errors import AnalysisError
+
+DEGREE = 4
+INTERVALS = 30
+
+
+class OrbitError(AnalysisError):
+    """No periodic orbit was reached; `contact_lost` tells a model left from a Newton failed."""
+
+    def __init__(self, message: str, contact_lost: bool = False) -> None:
+        super().__init__(message)
+        self.contact_lost = contact_lost
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Lagrange basis on m + 1 equidistant points of [0, 1], taken at the m Gauss points."""
+
+    points: Array
+    gauss: Array
+    weights: Array
+    values: Array
+    slopes: Array
+    barycentric: Array
+
+
+@lru_cache(maxsize=8)
+def basis_of(degree: int) -> Basis:
+    points = np.arange(degree + 1) / degree
+    roots, weights = np.polynomial.legendre.leggauss(degree)
+    gauss = 0.5 * (1.0 + roots)
+    vandermonde = np.linalg.inv(np.vander(points, increasing=True))
+    powers = np.arange(degree + 1)
+    values = gauss[:, None] ** powers @ vandermonde
+    slopes = (powers * gauss[:, None] ** np.maximum(powers - 1, 0)) @ vandermonde
+    signs = np.array([(-1.0) ** j * comb(degree, j) for j in range(degree + 1)])
+    return Basis(points, gauss, 0.5 * weights, values, slopes, signs)
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """One periodic motion, a piecewise polynomial of the phase s = t/period in [0, 1].
+
+    mesh     (N + 1,) phases of the interval ends, from 0 to 1
+    states   (N m + 1, n) states at the m + 1 equidistant points of each interval; the last is
+             the first again
+    period   [s]
+    speed    [m/s]
+    """
+
+    mesh: Array
+    states: Array
+    period: float
+    speed: float
+
+    @property
+    def degree(self) -> int:
+        """Degree m of the polynomial on each interval."""
+        return (len(self.states) - 1) // (len(self.mesh) - 1)
+
+    @property
+    def phases(self) -> Array:
+        """Phases (N m + 1,) of `states`."""
+        local = basis_of(self.degree).points[:-1]
+        inner = self.mesh[:-1, None] + np.diff(self.mesh)[:, None] * local
+        return np.append(inner.ravel(), 1.0)
+
+    def evaluate(self, phases: Array) -> Array:
+        """States (k, n) at phases (k,) of any size; the orbit repeats with 1."""
+        phases = np.mod(np.asarray(phases, dtype=float), 1.0)
+        interval = np.clip(np.searchsorted(self.mesh, phases, side="right") - 1, 0, None)
+        interval = np.minimum(interval, len(self.mesh) - 2)
+        local = (phases - self.mesh[interval]) / np.diff(self.mesh)[interval]
+        basis = basis_of(self.degree)
+        coefficients = np.linalg.inv(np.vander(basis.points, increasing=True))
+        weights = local[:, None] ** np.arange(self.degree + 1) @ coefficients
+        return np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
+
+    def half_peak_to_peak(self) -> Array:
+        """Amplitude (n,): half of the distance from the least to the largest value."""
+        per_interval = 4 * self.degree
+        local = np.arange(per_interval) / per_interval
+        phases = (self.mesh[:-1, None] + np.diff(self.mesh)[:, None] * local).ravel()
+        values = self.evaluate(phases)
+        return 0.5 * (_peak(phases, values) + _peak(phases, -values))
+
+    def on_mesh(self, mesh: Array) -> Orbit:
+        """The same motion on other intervals."""
+        moved = replace(self, mesh=np.asarray(mesh), states=np.empty(0))
+        local = basis_of(self.degree).points[:-1]
+        phases = (moved.mesh[:-1, None] + np.diff(moved.mesh)[:, None] * local).ravel()
+        states = self.evaluate(phases)
+        return replace(moved, states=np.vstack([states, states[:1]]))
+
+
+def orbit_from_samples(
+    states: Array, period: float, speed: float, intervals: int, degree: int = DEGREE
+) -> Orbit:
+    """Orbit on an even mesh from N m + 1 states (N m + 1, n) at equal steps over one period.
+
+    The last sample is replaced by the first, so a motion not yet settled makes a small step there.
+    """
+    states = np.array(states, dtype=float)
+    if len(states) != intervals * degree + 1:
+        raise AnalysisError(
+            f"{intervals} intervals of degree {degree} need {intervals * degree + 1} samples, "
+            f"got {len(states)}"
+        )
+    states[-1] = states[0]
+    return Orbit(np.linspace(0.0, 1.0, intervals + 1), states, float(period), float(speed))
+
+
+def balanced_mesh(orbit: Orbit, scales: Array, weight: float = 0.8) -> Array:
+    """Mesh (N + 1,) on which each interval carries an equal share of the local error.
+
+    The error density is |d^(m+1)x/ds^(m+1)|^(1/(m+1)), its derivative taken from the jumps of the
+    piecewise constant m-th one. The share 1 - `weight` is spread evenly: corners of f (a flange
+    spring, saturated creep) would otherwise draw all intervals to themselves.
+    """
+    degree, mesh = orbit.degree, orbit.mesh
+    widths = np.diff(mesh)
+    windows = windows_of(orbit.states / scales, degree)
+    highest = np.einsum("j,ijn->in", basis_of(degree).barycentric, windows)
+    highest *= (degree / widths[:, None]) ** degree
+    gaps = 0.5 * (widths + np.roll(widths, 1))
+    jumps = np.linalg.norm(highest - np.roll(highest, 1, axis=0), axis=1) / gaps
+    density = (0.5 * (jumps + np.roll(jumps, -1))) ** (1.0 / (degree + 1))
+    density = 0.25 * np.roll(density, 1) + 0.5 * density + 0.25 * np.roll(density, -1)
+    total = float(np.sum(density * widths))
+    if not np.isfinite(total) or total <= 0.0:
+        return mesh
+    share = np.concatenate([[0.0], np.cumsum(density * widths / total)])
+    share = weight * share + (1.0 - weight) * mesh
+    balanced = np.interp(np.linspace(0.0, 1.0, len(mesh)), share / share[-1], mesh)
+    balanced[0], balanced[-1] = 0.0, 1.0
+    return balanced
+
+
+def windows_of(states: Array, degree: int) -> Array:
+    """States (N, m + 1, n) of each interval from the chain (N m + 1, n)."""
+    first = np.arange(0, len(states) - 1, degree)
+    return states[first[:, None] + np.arange(degree + 1)]
+
+
+def _peak(phases: Array, values: Array) -> Array:
+    """Largest value (n,) of each column, by the parabola through the three highest samples."""
+    count, size = values.shape
+    index = values.argmax(axis=0)
+    column = np.arange(size)
+    middle = values[index, column]
+    below, above = values[index - 1, column], values[(index + 1) % count, column]
+    left = np.mod(phases[index] - phases[index - 1], 1.0)
+    right = np.mod(phases[(index + 1) % count] - phases[index], 1.0)
+    slope_left, slope_right = (middle - below) / left, (above - middle) / right
+    curvature = 2.0 * (slope_right - slope_left) / (left + right)
+    slope = (slope_left * right + slope_right * left) / (left + right)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        rise = np.where(curvature < 0.0, -0.5 * slope**2 / curvature, 0.0)
+    return middle + rise

@@ -1,0 +1,125 @@
+"""Exudyn solver settings from files: the names of exudyn.SimulationSettings, only what differs.
+
+    {"timeIntegration": {"numberOfSteps": 4000, "endTime": 2.0, "solverType": "RK44"},
+     "solution.writeSolutionToFile": false}
+
+Nested objects and dotted names both work; enum values are given by name. An unknown name, a wrong
+type or a wrong enum value is a SettingsError that names the nearest right one.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import exudyn as exu
+
+from exudyn_wheelset.errors import SettingsError
+
+
+def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.SimulationSettings:
+    """Return Exudyn's simulation settings with the entries of a file (or mapping) applied.
+
+    Raises SettingsError for a file that cannot be read or is no JSON object, unknown names, wrong
+    types and unknown enum values.
+    """
+    settings = exu.SimulationSettings()
+    if source is None:
+        return settings
+    if isinstance(source, Mapping):
+        entries, origin = source, "settings"
+    else:
+        entries, origin = _read(Path(source)), str(source)
+    apply_settings(settings, entries, origin)
+    return settings
+
+
+def apply_settings(
+    settings: exu.SimulationSettings, entries: Mapping[str, Any], origin: str = "settings"
+) -> None:
+    """Set entries, nested or dotted, on Exudyn settings in place; errors as `load_settings`."""
+    known = _flatten(settings.GetDictionary())
+    for name, value in _flatten(entries).items():
+        if name not in known:
+            raise SettingsError(f"{origin}: {_unknown(name, known)}")
+        target: Any = settings
+        *groups, last = name.split(".")
+        for group in groups:
+            target = getattr(target, group)
+        setattr(target, last, _converted(f"{origin}: {name}", value, known[name]))
+
+
+def changed_settings(settings: exu.SimulationSettings) -> dict[str, Any]:
+    """Entries that differ from Exudyn's defaults, flat, enums by name: a file's content."""
+    default = _flatten(exu.SimulationSettings().GetDictionary())
+    now = _flatten(settings.GetDictionary())
+    return {
+        name: value.name if hasattr(value, "name") else value
+        for name, value in now.items()
+        if value != default[name]
+    }
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    try:
+        entries = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise SettingsError(f"{path}: no such settings file") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise SettingsError(f"{path}: cannot be read: {error}") from error
+    except json.JSONDecodeError as error:
+        raise SettingsError(
+            f"{path}: line {error.lineno}: not JSON ({error.msg}); write an object such as "
+            '{"timeIntegration": {"endTime": 2.0}}'
+        ) from error
+    if not isinstance(entries, dict):
+        raise SettingsError(f"{path}: holds a {type(entries).__name__}, not an object {{...}}")
+    return entries
+
+
+def _flatten(entries: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in entries.items():
+        if isinstance(value, Mapping):
+            flat.update(_flatten(value, f"{prefix}{name}."))
+        else:
+            flat[prefix + name] = value
+    return flat
+
+
+def _unknown(name: str, known: Mapping[str, Any]) -> str:
+    message = f"Exudyn has no setting {name!r}"
+    near = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
+    same_end = [k for k in known if k.rsplit(".", 1)[-1].lower() == name.rsplit(".", 1)[-1].lower()]
+    candidates = same_end or near
+    return f"{message}; the nearest is {candidates[0]!r}" if candidates else message
+
+
+def _converted(where: str, value: Any, default: Any) -> Any:
+    """Value in the type of the default; enums from their names."""
+    if hasattr(default, "__members__") or hasattr(type(default), "__members__"):
+        members = type(default).__members__
+        if isinstance(value, str) and value in members:
+            return members[value]
+        near = difflib.get_close_matches(str(value), list(members), n=1, cutoff=0.0)
+        raise SettingsError(
+            f"{where} = {value!r}: give one of {', '.join(members)}; the nearest is {near[0]!r}"
+        )
+    if isinstance(default, bool):
+        right = isinstance(value, bool)
+    elif isinstance(default, int):
+        right = isinstance(value, int) and not isinstance(value, bool)
+    elif isinstance(default, float):
+        right = isinstance(value, int | float) and not isinstance(value, bool)
+    else:
+        right = isinstance(value, type(default))
+    if not right:
+        raise SettingsError(
+            f"{where} = {value!r} is of type {type(value).__name__}: "
+            f"give a {type(default).__name__} (the default is {default!r})"
+        )
+    return float(value) if isinstance(default, float) else value

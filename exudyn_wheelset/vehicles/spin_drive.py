@@ -1,0 +1,41 @@
+"""An axle that is driven: its spin is held at V/r0 by a strong rotational damper.
+
+The paper's equations (2) and (4) take the spin to be V/r0 whatever radius the wheels roll on. A
+free wheelset finds its own spin, with zero mean longitudinal creepage; a driven one whose wheels
+roll beside the tape circle slips a little all the time. This drive makes the six-degree-of-freedom
+model comparable with the paper's.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from exudyn.utilities import LoadTorqueVector
+
+from exudyn_wheelset.coupling.create import WheelsetItems
+
+
+def create_spin_drive(
+    mbs: Any, items: WheelsetItems, radius: float, damping: float = 1.0e6
+) -> int:
+    """Hold the spin of a wheelset at (speed of its moving frame)/radius; return the load number.
+
+    radius r0 [m]; damping [N m s/rad] of the drive about the axle, body axes: with 1e6 a creep
+    force of 10 kN on the rim changes the spin by 4 mrad/s.
+    """
+    contact = items.contact
+
+    def torque(mbs: Any, t: float, load: Any) -> list[float]:
+        if contact.first < 0:
+            contact.place(mbs)
+        spin = mbs.systemData.GetODE2Coordinates_t()[contact.first + 4]
+        return [0.0, damping * (contact.rail_speed / radius - spin), 0.0]
+
+    return mbs.AddLoad(
+        LoadTorqueVector(
+            name="spin drive",
+            markerNumber=items.marker,
+            bodyFixed=True,
+            loadVectorUserFunction=torque,
+        )
+    )
