@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from scipy.optimize import brentq
 
 from exudyn_wheelset.analyses.orbit import Orbit
 from exudyn_wheelset.analyses.records import read_record, write_record
@@ -148,21 +148,34 @@ class Branch:
     def amplitudes_at(self, speed: float, name: str, stable: bool | None = None) -> Array:
         """Amplitudes [m or rad] of a displacement where the branch passes a speed [m/s].
 
-        Interpolated by the cubic through the four nearest points between two folds. `stable`
-        keeps one kind of them. Empty if the branch does not pass the speed.
+        Speed and amplitude are interpolated by cubics over the chord length along the branch,
+        which is smooth at a fold too. `stable` keeps one kind of them. Empty if the branch does
+        not pass the speed.
         """
         column = self.amplitude[name]
+        steps = np.hypot(
+            np.diff(self.speed) / max(np.ptp(self.speed), 1e-300),
+            np.diff(column) / max(np.ptp(column), 1e-300),
+        )
+        along = np.append(0.0, np.cumsum(np.maximum(steps, 1e-12)))
         found: list[float] = []
-        for first, last in self._runs():
-            for index in range(first, last):
-                low, high = sorted(self.speed[index : index + 2])
-                if not low <= speed <= high or (speed == low and index > first and found):
-                    continue
-                if stable is not None and stable != self._steady(index):
-                    continue
-                start = min(max(first, index - 1), max(first, last - 3))
-                chosen = slice(start, min(start + 4, last + 1))
-                found.append(_lagrange(self.speed[chosen], column[chosen], speed))
+        for index in range(len(self) - 1):
+            before, after = self.speed[index : index + 2] - speed
+            if before * after > 0.0 or (before == 0.0 and index > 0):
+                continue
+            if stable is not None and stable != self._steady(index):
+                continue
+            if before == 0.0 or after == 0.0:
+                found.append(float(column[index if before == 0.0 else index + 1]))
+                continue
+            first = max(0, min(index - 1, len(self) - 4))
+            near = slice(first, first + 4)
+            where = brentq(
+                lambda s, near=near: _lagrange(along[near], self.speed[near] - speed, s),
+                along[index],
+                along[index + 1],
+            )
+            found.append(_lagrange(along[near], column[near], where))
         return np.array(found)
 
     def lowest_stable(self) -> tuple[float, str]:
@@ -272,11 +285,6 @@ class Branch:
     @staticmethod
     def _note(ax: Axes, text: str, speed: float, height: float) -> None:
         ax.annotate(text, (speed, height), xytext=(4, 6), textcoords="offset points", fontsize=8)
-
-    def _runs(self) -> list[tuple[int, int]]:
-        """First and last point of each piece between folds."""
-        ends = [0, *(fold.index for fold in self.folds), len(self) - 1]
-        return [(a, b) for a, b in pairwise(ends) if b > a]
 
     def _steady(self, index: int) -> bool:
         """Whether the piece from a point to the next is stable; a fold goes with its neighbour."""
