@@ -25,6 +25,7 @@ import math
 import numpy as np
 from numba import njit
 
+from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import (
     LOBE_ARC,
@@ -35,13 +36,15 @@ from exudyn_wheelset.contact.search import (
     LOBE_RIGHT,
     LOBE_SEPARATION,
     LOBE_WIDTH,
+    MERGED,
+    MERGED_DEPTH,
     MOST_LOBES,
+    OWN,
     VIRTUAL,
     find_lobes,
     zone_moments,
 )
 from exudyn_wheelset.contact.tables import DATUM, HEADER, RADIUS, RAIL, RAIL_SEGMENTS, RAIL_SPACING
-from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.creep import creep_kernel
 from exudyn_wheelset.normal.hertz import hertz_from_approach
 
@@ -98,36 +101,65 @@ def _ellipse(zone, lobe_depth, radius, nz, parameters):
     )
 
 
+@njit(cache=True, error_model="numpy", inline="always")
+def _unit(y, z):
+    length = math.sqrt(y * y + z * z)
+    return y / length, z / length
+
+
+@njit(cache=True, error_model="numpy")
+def _lobe_moments(table, side, k, deepest, slot, cy, cz, lx, ly, lz, lobes):
+    """Moments of lobe k over the zone above (1 - VIRTUAL) deepest, kept in its row at `slot`."""
+    depth = lobes[k, LOBE_PENETRATION]
+    level = (1.0 - VIRTUAL) * deepest
+    lobes[k, slot : slot + 5] = 0.0
+    if depth > level:
+        zone, arc, foot, ny, nz = zone_moments(
+            table, side, lobes[k, LOBE_ARC], lobes[k, LOBE_FOOT], depth,
+            lobes[k, LOBE_CURVATURE], lobes[k, LOBE_LEFT], lobes[k, LOBE_RIGHT],
+            level, cy, cz, lx, ly, lz,
+        )  # fmt: skip
+        lobes[k, slot] = zone
+        lobes[k, slot + 1] = arc
+        lobes[k, slot + 2] = foot
+        lobes[k, slot + 3] = ny
+        lobes[k, slot + 4] = nz
+    if slot == MERGED:
+        lobes[k, MERGED_DEPTH] = deepest
+
+
+@njit(cache=True, error_model="numpy")
+def _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes):
+    """Column where lobe k's moments below the depth of its merged patch stand."""
+    if lobes[k, LOBE_PENETRATION] == deepest:
+        return OWN
+    if lobes[k, MERGED_DEPTH] != deepest:
+        _lobe_moments(table, side, k, deepest, MERGED, cy, cz, lx, ly, lz, lobes)
+    return MERGED
+
+
 @njit(cache=True, error_model="numpy")
 def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes):
     """Normal contact of one side: fills patch rows with geometry and elastic force; their count."""
     count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes)
+    for k in range(count):
+        _lobe_moments(table, side, k, lobes[k, LOBE_PENETRATION], OWN, cy, cz, lx, ly, lz, lobes)
+    merging = parameters[NORMAL] != HERTZ_LOCAL
     kept = 0
     for k in range(count):
-        depth = lobes[k, LOBE_PENETRATION]
-        arc = lobes[k, LOBE_ARC]
-        foot = lobes[k, LOBE_FOOT]
-        bend = lobes[k, LOBE_CURVATURE]
-        level = (1.0 - VIRTUAL) * depth
-        zone, m_arc, m_foot, m_ny, m_nz = zone_moments(
-            table, side, arc, foot, depth, bend, lobes[k, LOBE_LEFT], lobes[k, LOBE_RIGHT],
-            level, cy, cz, lx, ly, lz,
-        )  # fmt: skip
+        zone = lobes[k, OWN]
         if zone <= 0.0:
             continue
-        place = m_arc / zone
-        at = m_foot / zone
-        ny = m_ny
-        nz = m_nz
-        length = math.sqrt(ny * ny + nz * nz)
-        ny /= length
-        nz /= length
+        depth = lobes[k, LOBE_PENETRATION]
+        place = lobes[k, OWN + 1] / zone
+        at = lobes[k, OWN + 2] / zone
+        ny, nz = _unit(lobes[k, OWN + 3], lobes[k, OWN + 4])
         _, _, _, _, _, radius, _, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
         if parameters[NORMAL] == HERTZ_LOCAL:
-            place = arc
-            at = foot
+            place = lobes[k, LOBE_ARC]
+            at = lobes[k, LOBE_FOOT]
             force, a, b = hertz_from_approach(
-                0.5 * nz / radius, 0.5 * max(bend, 1.0e-3), depth,
+                0.5 * nz / radius, 0.5 * max(lobes[k, LOBE_CURVATURE], 1.0e-3), depth,
                 parameters[SHEAR_MODULUS], parameters[POISSON],
             )  # fmt: skip
         else:
@@ -138,40 +170,22 @@ def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobe
         if k > 0 and lobes[k - 1, LOBE_SEPARATION] < separation:
             separation = lobes[k - 1, LOBE_SEPARATION]
             other = k - 1
-        if separation < 1.0 and parameters[NORMAL] != HERTZ_LOCAL:
+        if separation < 1.0 and merging:
             deepest = max(depth, lobes[other, LOBE_PENETRATION])
-            level = (1.0 - VIRTUAL) * deepest
-            own = 0.0
-            own_arc = own_foot = own_ny = own_nz = 0.0
-            if depth > level:
-                own, own_arc, own_foot, own_ny, own_nz = zone_moments(
-                    table, side, arc, foot, depth, bend, lobes[k, LOBE_LEFT],
-                    lobes[k, LOBE_RIGHT], level, cy, cz, lx, ly, lz,
-                )  # fmt: skip
-            others = 0.0
-            if lobes[other, LOBE_PENETRATION] > level:
-                others, _, _, _, _ = zone_moments(
-                    table, side, lobes[other, LOBE_ARC], lobes[other, LOBE_FOOT],
-                    lobes[other, LOBE_PENETRATION], lobes[other, LOBE_CURVATURE],
-                    lobes[other, LOBE_LEFT], lobes[other, LOBE_RIGHT],
-                    level, cy, cz, lx, ly, lz,
-                )  # fmt: skip
-            share = own / (own + others)
-            merged_force, merged_a, merged_b = _ellipse(
-                own + others, deepest, radius, nz, parameters
-            )
+            mine = _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes)
+            theirs = _moments_at(table, side, other, deepest, cy, cz, lx, ly, lz, lobes)
+            own = lobes[k, mine]
+            whole = own + lobes[other, theirs]
+            share = own / whole
+            merged_force, merged_a, merged_b = _ellipse(whole, deepest, radius, nz, parameters)
             rest = (1.0 - separation) * share
             # A share's position counts with the force it brings.
             weight = rest * merged_force / max(separation * force + rest * merged_force, 1.0e-30)
             if own > 0.0:
-                place += weight * (own_arc / own - place)
-                at += weight * (own_foot / own - at)
-                length = math.sqrt(own_ny * own_ny + own_nz * own_nz)
-                ny += weight * (own_ny / length - ny)
-                nz += weight * (own_nz / length - nz)
-                length = math.sqrt(ny * ny + nz * nz)
-                ny /= length
-                nz /= length
+                place += weight * (lobes[k, mine + 1] / own - place)
+                at += weight * (lobes[k, mine + 2] / own - at)
+                my, mz = _unit(lobes[k, mine + 3], lobes[k, mine + 4])
+                ny, nz = _unit(ny + weight * (my - ny), nz + weight * (mz - nz))
             force = separation * force + rest * merged_force
             a = separation * a + (1.0 - separation) * merged_a
             b = separation * b + rest * merged_b

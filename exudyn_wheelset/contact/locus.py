@@ -49,50 +49,72 @@ def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
     )
 
 
+@njit(cache=True, error_model="numpy", inline="always")
+def wheel_section(table, side, arc, cy, cz, lx, ly, lz):
+    """Contact-locus point at the wheel's arc length in the y-z plane: (y, z, ny, nz, curvature).
+
+    curvature [1/m] of the profile, z up, negative where the wheel is concave (throat). The arc's
+    tangent (y', z') is of unit length, so y' = 1/sqrt(1 + t^2).
+    """
+    y, y1, y2, z, z1, z2 = curve_point(
+        table,
+        int(table[side + WHEEL]),
+        table[side + WHEEL_SPACING],
+        int(table[side + WHEEL_SEGMENTS]),
+        arc,
+    )
+    r = table[side + RADIUS] - z
+    t = -z1 / y1
+    square = lx * lx
+    q = 1.0 / (1.0 - square)
+    along = -square * t * q
+    root = math.sqrt(max(1.0 - square - square * t * t, 1.0e-6)) * q
+    ey = along * ly + root * lz
+    ez = along * lz - root * ly
+    w = table[side + TAPE] + y
+    return (
+        cy + w * ly + r * ey,
+        cz + w * lz + r * ez,
+        ey * y1 + z1 * ly,
+        ez * y1 + z1 * lz,
+        y1 * z2 - z1 * y2,
+    )
+
+
 @njit(cache=True, error_model="numpy")
 def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
-    """Contact-locus point at the wheel's arc length: (x, y, z, ny, nz, radius, wheel_y, curvature).
+    """Contact-locus point with all about it: (x, y, z, ny, nz, radius, wheel_y, curvature).
 
     x is relative to the axle's centre; radius [m] is the rolling radius r sqrt(1 - (t lx)^2), the
-    arm of the spin: the lead takes the rest of r out of the direction of travel; curvature [1/m] of
-    the profile, z up, negative where the wheel is concave (throat).
+    arm of the spin: the lead takes the rest of r out of the direction of travel.
     """
     offset = int(table[side + WHEEL])
     segments = int(table[side + WHEEL_SEGMENTS])
     y, y1, y2, z, z1, z2 = curve_point(table, offset, table[side + WHEEL_SPACING], segments, arc)
     radius = table[side + RADIUS] - z
     slope = -z1 / y1
-    x, py, pz, ny, nz = locus_point(
-        table[side + TAPE] + y, radius, slope, 0.0, cy, cz, lx, ly, lz
-    )
+    x, py, pz, ny, nz = locus_point(table[side + TAPE] + y, radius, slope, 0.0, cy, cz, lx, ly, lz)
     arm = radius * math.sqrt(max(1.0 - slope * slope * lx * lx, 0.0))
     return x, py, pz, ny, nz, arm, y, y1 * z2 - z1 * y2
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", inline="always")
 def rail_foot(table, side, py, pz, arc):
     """Foot of the perpendicular from (py, pz) on the rail, from a near guess of its arc length.
 
-    Returns (arc, y, z, tangent_y, tangent_z, curvature, height); height [m] is the signed distance
-    of the point above the rail, curvature [1/m] is negative on a convex head.
+    Returns (arc, tangent_y, tangent_z, curvature, height); height [m] is the signed distance of
+    the point above the rail, curvature [1/m] is negative on a convex head. The guess is corrected
+    by a Taylor step along the curve, whose error is of third order in the guess's.
     """
-    offset = int(table[side + RAIL])
-    spacing = table[side + RAIL_SPACING]
-    segments = int(table[side + RAIL_SEGMENTS])
-    y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, arc)
-    arc += (py - y) * y1 + (pz - z) * z1
-    y, y1, y2, z, z1, z2 = curve_point(table, offset, spacing, segments, arc)
-    # The rest is a Taylor step along the curve: the first correction leaves a residue of third order.
+    y, y1, y2, z, z1, z2 = curve_point(
+        table,
+        int(table[side + RAIL]),
+        table[side + RAIL_SPACING],
+        int(table[side + RAIL_SEGMENTS]),
+        arc,
+    )
     curvature = y1 * z2 - z1 * y2
     height = (pz - z) * y1 - (py - y) * z1
     along = (py - y) * y1 + (pz - z) * z1
     bend = curvature * along
-    return (
-        arc + along,
-        y + along * y1,
-        z + along * z1,
-        y1 - bend * z1,
-        z1 + bend * y1,
-        curvature,
-        height - 0.5 * bend * along,
-    )
+    return arc + along, y1 - bend * z1, z1 + bend * y1, curvature, height - 0.5 * bend * along

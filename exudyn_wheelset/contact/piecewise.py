@@ -14,6 +14,7 @@ angle [rad], radius [m]. Yaw is zero: that is what the paper tabulates.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
@@ -36,6 +37,10 @@ COLUMNS = (
 )
 # A contact point that moves more than this between two close shifts has jumped [m].
 JUMP = 1.0e-3
+# A jump is located this closely [m]; of jumps nearer to each other than _CLOSEST one is kept.
+_BRACKET = 2.0e-12
+_CLOSEST = 2.0e-7
+_POINTS = [2, 3, 6, 7]
 REPRESENTATIONS = ("cubic", "polynomial")
 
 
@@ -87,52 +92,53 @@ def piecewise_geometry(
     count = 2 * int(np.ceil(half_range / spacing)) + 1
     y = np.linspace(-half_range, half_range, count)
     values = geometry_columns(contact_geometry(wheelset, track, y))
-    moving = np.abs(np.diff(values[:, [2, 3, 6, 7]], axis=0)).max(axis=1)
-    breaks, pieces, degrees, residuals = [y[0]], [], [], []
-    jumps = []
-    first = 0
-    for last in [*np.flatnonzero(moving > JUMP), count - 1]:
-        piece = slice(first, last + 1)
-        if last < count - 1:
-            jumps.append(_locate_jump(wheelset, track, y[last], y[last + 1]))
-            end = jumps[-1]
-        else:
-            end = y[-1]
+    moving = np.abs(np.diff(values[:, _POINTS], axis=0)).max(axis=1)
+    jumps: list[float] = []
+    for cell in np.flatnonzero(moving > JUMP):
+        jumps += _locate_jumps(wheelset, track, y[cell], y[cell + 1])
+    breaks = [y[0], *jumps, y[-1]]
+    pieces, degrees, residuals = [], [], []
+    for low, high in pairwise(breaks):
+        inner = y[(y > low + 0.5 * spacing) & (y < high - 0.5 * spacing)]
+        # Beside a jump the contact moves fast: closer points there.
+        reach = min(2.0 * spacing, 0.5 * (high - low) - _BRACKET)
+        closer = _BRACKET + reach * np.array([0.0, 0.004, 0.02, 0.06, 0.14, 0.28, 0.5, 0.75, 1.0])
+        inner = inner[(inner > low + 1.1 * reach) & (inner < high - 1.1 * reach)]
+        samples = np.unique(np.concatenate([low + closer, inner, high - closer]))
+        exact = geometry_columns(contact_geometry(wheelset, track, samples))
         curve, degree = _smooth_piece(
-            y[piece], values[piece], breaks[-1], end, representation, tolerance, highest_degree
+            samples, exact, low, high, representation, tolerance, highest_degree
         )
-        residuals.append(np.abs(curve(y[piece]) - values[piece]).max(axis=0))
+        residuals.append(np.abs(curve(samples) - exact).max(axis=0))
         pieces.append(curve)
         degrees.append(degree)
-        breaks.append(end)
-        first = last + 1
     return PiecewiseGeometry(
         np.array(jumps), _join(pieces, breaks), tuple(degrees), np.array(residuals)
     )
 
 
-def _locate_jump(wheelset: Wheelset, track: Track, low: float, high: float) -> float:
-    """Shift at which the contact point jumps, by bisection."""
-    reference = geometry_columns(contact_geometry(wheelset, track, [low]))[0, [2, 3, 6, 7]]
-    for _ in range(24):
+def _locate_jumps(wheelset: Wheelset, track: Track, low: float, high: float) -> list[float]:
+    """Shifts in (low, high) at which a contact point jumps, by bisection; fast motion is none."""
+
+    def points(y: float) -> np.ndarray:
+        return geometry_columns(contact_geometry(wheelset, track, [y]))[0, _POINTS]
+
+    first, last, at_low, at_high = low, high, points(low), points(high)
+    while high - low > _BRACKET:
         middle = 0.5 * (low + high)
-        here = geometry_columns(contact_geometry(wheelset, track, [middle]))[0, [2, 3, 6, 7]]
-        if np.abs(here - reference).max() > 0.5 * JUMP:
-            high = middle
+        here = points(middle)
+        if np.abs(here - at_low).max() > np.abs(at_high - here).max():
+            high, at_high = middle, here
         else:
-            low = middle
-    return 0.5 * (low + high)
+            low, at_low = middle, here
+    if np.abs(at_high - at_low).max() < 0.1 * JUMP:
+        return []
+    before = _locate_jumps(wheelset, track, first, low) if low - first > _CLOSEST else []
+    after = _locate_jumps(wheelset, track, high, last) if last - high > _CLOSEST else []
+    return [*before, 0.5 * (low + high), *after]
 
 
 def _smooth_piece(y, values, low, high, representation, tolerance, highest_degree):
-    if len(y) < 4:
-        degree = len(y) - 1
-        fit = np.polynomial.Polynomial
-        rows = [fit.fit(y, column, degree).convert(domain=[-1, 1]) for column in values.T]
-        coefficients = np.array([row(np.zeros(1))[0] for row in rows]) if degree == 0 else None
-        if coefficients is not None:
-            return PPoly(coefficients[None, None, :], [low, high]), 0
-        return _polynomial_piece(y, values, low, high, tolerance, degree), degree
     if representation == "cubic":
         spline = CubicSpline(y, values)
         return PPoly(spline.c, spline.x), 3

@@ -49,6 +49,9 @@ METHODS = ("root", "nelder-mead")
 # millimetre apart, see a minimum too high by at most 0.02 mm across, 0.1 mm along a steep flange.
 _SCAN_WINDOW = 2.0e-4
 _ROLL_RANGE = 0.12
+# The bracket walks in small steps as far as flange contact rolls a wheelset, then in growing ones.
+_ROLL_STEP = 4.0e-4
+_WALKED_ROLL = 0.015
 _SIDE_WIDTH = 7
 
 
@@ -205,11 +208,14 @@ def gap_difference(table, y, roll, yaw):
 
 @njit(cache=True, error_model="numpy")
 def _roll_root(table, y, yaw, guess):
-    """Roll angle at which both distances agree, or NaN without contact in range."""
+    """Roll angle at which both distances agree, or NaN without contact in range.
+
+    A steep flange may agree at several angles: the first one on the way from `guess` is taken.
+    """
     low, high = guess - 2.0e-4, guess + 2.0e-4
     f_low = gap_difference(table, y, low, yaw)[0]
     f_high = gap_difference(table, y, high, yaw)[0]
-    widen = 4.0e-4
+    widen = _ROLL_STEP
     while not (f_low <= 0.0 <= f_high):
         if not (f_low <= 0.0):
             high, f_high = low, f_low
@@ -219,7 +225,8 @@ def _roll_root(table, y, yaw, guess):
             low, f_low = high, f_high
             high += widen
             f_high = gap_difference(table, y, high, yaw)[0]
-        widen *= 2.0
+        if abs(0.5 * (low + high) - guess) > _WALKED_ROLL:
+            widen *= 1.5
         if widen > 2.0 * _ROLL_RANGE or not (f_low < np.inf) or not (f_high > -np.inf):
             return np.nan
     side = 0
@@ -269,15 +276,23 @@ def _fill_side(table, side, y, lx, ly, lz, row):
 
 
 @njit(cache=True, error_model="numpy")
-def _geometry(table, y, yaw, roll, known, heights, left, right, second):
-    """Fill the arrays; `known` says that roll is given and only the points are wanted."""
-    guess = 0.0
-    for k in range(len(y)):
+def _geometry(table, y, yaw, order, roll, known, heights, left, right, second):
+    """Fill the arrays; `known` says that roll is given and only the points are wanted.
+
+    order: of the shifts from the centre outwards, so that a shift's contact is the one which the
+    wheelset reaches from the centre, whatever the order of y.
+    """
+    guess_left = guess_right = 0.0
+    for k in order:
         if not known:
+            guess = guess_left if y[k] >= 0.0 else guess_right
             roll[k] = _roll_root(table, y[k], yaw[k], guess)
             if roll[k] != roll[k]:
                 return k
-            guess = roll[k]
+            if y[k] >= 0.0:
+                guess_left = roll[k]
+            else:
+                guess_right = roll[k]
         lx = -math.sin(yaw[k]) * math.cos(roll[k])
         ly = math.cos(yaw[k]) * math.cos(roll[k])
         lz = math.sin(roll[k])
@@ -326,7 +341,8 @@ def contact_geometry(
             _roll_by_nelder_mead(table, shift, angle, weights)
             for shift, angle in zip(shifts, yaws, strict=True)
         ]
-    failed = _geometry(table, shifts, yaws, roll, known, heights, left, right, second)
+    order = np.argsort(np.abs(shifts), kind="stable")
+    failed = _geometry(table, shifts, yaws, order, roll, known, heights, left, right, second)
     if failed >= 0:
         raise ContactError(
             f"no rigid contact at y = {shifts[failed] * 1e3:.3f} mm, "

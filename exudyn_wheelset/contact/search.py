@@ -24,7 +24,7 @@ import math
 
 from numba import njit
 
-from exudyn_wheelset.contact.locus import rail_foot, wheel_point
+from exudyn_wheelset.contact.locus import rail_foot, wheel_section
 from exudyn_wheelset.contact.tables import (
     GRID,
     GRID_START,
@@ -41,9 +41,11 @@ from exudyn_wheelset.contact.tables import (
 VIRTUAL = 0.55
 MOST_LOBES = 3
 SCAN_MARGIN = 6.0e-5
-LOBE_WIDTH = 8
+LOBE_WIDTH = 20
 LOBE_ARC, LOBE_FOOT, LOBE_PENETRATION, LOBE_LEFT, LOBE_RIGHT, LOBE_SEPARATION = 0, 1, 2, 3, 4, 5
 LOBE_CURVATURE = 6
+# Columns for the moments of a lobe's zone, its own and as a part of a merged patch (forces.py).
+OWN, MERGED, MERGED_DEPTH = 8, 13, 18
 
 GAUSS_4 = (
     (0.06943184420297371, 0.17392742256872693),
@@ -60,15 +62,15 @@ def probe(table, side, arc, foot, cy, cz, lx, ly, lz):
     sine: of the angle from the rail's tangent to the wheel's, the slope of -penetration along the
     wheel; 2 B [1/m]: relative curvature, its derivative.
     """
-    _, py, pz, ny, nz, _, _, wheel_curvature = wheel_point(table, side, arc, cy, cz, lx, ly, lz)
-    foot, _, _, ty, tz, rail_curvature, height = rail_foot(table, side, py, pz, foot)
+    py, pz, ny, nz, wheel_curvature = wheel_section(table, side, arc, cy, cz, lx, ly, lz)
+    foot, ty, tz, rail_curvature, height = rail_foot(table, side, py, pz, foot)
     return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
 
 
 @njit(cache=True, error_model="numpy")
 def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
     """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
-    _, py, _, _, _, _, _, _ = wheel_point(table, side, arc, cy, cz, lx, ly, lz)
+    py, _, _, _, _ = wheel_section(table, side, arc, cy, cz, lx, ly, lz)
     py = min(max(py, table[side + RAIL_LOW]), table[side + RAIL_HIGH])
     place = (py - table[side + GRID_START]) / table[side + GRID_STEP]
     cell = int(place)
@@ -77,12 +79,12 @@ def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
 
 
 @njit(cache=True, error_model="numpy")
-def level_tangent(table, side, low, high, sign, cy, cz, lx, ly, lz):
+def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
     """Wheel arc length in [low, high] where the tangents agree: a lobe (sign 1) or valley (-1).
 
-    Returns (arc, foot, penetration, 2 B).
+    start: first guess. Returns (arc, foot, penetration, 2 B).
     """
-    arc = 0.5 * (low + high)
+    arc = start
     foot = grid_foot(table, side, arc, cy, cz, lx, ly, lz)
     penetration = 0.0
     bend = 1.0
@@ -118,7 +120,7 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
     count = int(table[side + NODE_COUNT])
     grid = int(table[side + GRID])
     start = table[side + GRID_START]
-    step = table[side + GRID_STEP]
+    per_step = 1.0 / table[side + GRID_STEP]
     low = table[side + RAIL_LOW]
     high = table[side + RAIL_HIGH]
     found = 0
@@ -128,14 +130,22 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
     valley_node = -1
     first_node = -1
     final_node = -1
-    for node in range(count):
+    square = lx * lx
+    q = 1.0 / (1.0 - square)
+    first = 0
+    # Whole blocks of nodes on the track side of the rail are passed over.
+    while first + 8 < count:
+        base = nodes + NODE_WIDTH * (first + 8)
+        if cy + table[base + 1] * ly + table[base + 2] * lz * q > low - 0.01:
+            break
+        first += 8
+    for node in range(first, count):
         base = nodes + NODE_WIDTH * node
         w = table[base + 1]
         r = table[base + 2]
         t = table[base + 3]
-        q = 1.0 - lx * lx
-        root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
-        along = -lx * lx * t / q
+        root = math.sqrt(max(1.0 - square - square * t * t, 1.0e-6)) * q
+        along = -square * t * q
         py = cy + w * ly + r * (along * ly + root * lz)
         if py < low or py > high:
             if first_node >= 0:
@@ -145,12 +155,12 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
             first_node = node
         final_node = node
         pz = cz + w * lz + r * (along * lz - root * ly)
-        place = (py - start) / step
+        place = (py - start) * per_step
         cell = int(place)
         at = grid + 2 * cell
         depth = (table[at] + (place - cell) * (table[at + 2] - table[at]) - pz) * table[base + 4]
         if last > -SCAN_MARGIN and last >= before and last > depth and node - 1 >= first_node:
-            found = _note_lobe(table, nodes, lobes, found, node - 1, last, valley_node)
+            found = _note_lobe(lobes, found, node - 1, before, last, depth, valley_node)
             valley = last
             valley_node = node - 1
         if found > 0 and depth < valley:
@@ -159,15 +169,15 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
         before = last
         last = depth
     if last > -SCAN_MARGIN and last >= before and final_node > first_node >= 0:
-        found = _note_lobe(table, nodes, lobes, found, final_node, last, valley_node)
+        found = _note_lobe(lobes, found, final_node, before, last, last, valley_node)
     if found == 0:
         return 0
     return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node)
 
 
 @njit(cache=True, error_model="numpy")
-def _note_lobe(table, nodes, lobes, found, node, depth, valley_node):
-    """Store a candidate; territory borders are node numbers until they are refined."""
+def _note_lobe(lobes, found, node, before, depth, after, valley_node):
+    """Store a candidate: node numbers and the depths around it, until it is refined."""
     if found == MOST_LOBES:
         least = 0
         for k in range(1, found):
@@ -182,7 +192,19 @@ def _note_lobe(table, nodes, lobes, found, node, depth, valley_node):
     lobes[found, LOBE_ARC] = node
     lobes[found, LOBE_PENETRATION] = depth
     lobes[found, LOBE_LEFT] = valley_node
+    lobes[found, LOBE_FOOT] = before
+    lobes[found, LOBE_CURVATURE] = after
     return found + 1
+
+
+@njit(cache=True, error_model="numpy", inline="always")
+def _vertex(left, middle, right, lobes, k):
+    """Vertex of the parabola through the depths at three nodes."""
+    fall = lobes[k, LOBE_PENETRATION] - lobes[k, LOBE_FOOT]
+    rise = lobes[k, LOBE_CURVATURE] - lobes[k, LOBE_PENETRATION]
+    curve = fall - rise
+    shift = 0.25 * (fall + rise) / curve * (right - left) if curve > 0.0 else 0.0
+    return min(max(middle + shift, left), right)
 
 
 @njit(cache=True, error_model="numpy")
@@ -193,10 +215,12 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
         node = int(lobes[k, LOBE_ARC])
         valley_node = int(lobes[k, LOBE_LEFT])
         left = table[nodes + NODE_WIDTH * max(node - 1, 0)]
+        middle = table[nodes + NODE_WIDTH * node]
         right = table[nodes + NODE_WIDTH * min(node + 1, final_node)]
         arc, foot, penetration, bend = level_tangent(
-            table, side, left, right, 1.0, cy, cz, lx, ly, lz
-        )
+            table, side, left, right, _vertex(left, middle, right, lobes, k), 1.0,
+            cy, cz, lx, ly, lz,
+        )  # fmt: skip
         if penetration <= 0.0:
             continue
         lobes[kept, LOBE_ARC] = arc
@@ -205,13 +229,14 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
         lobes[kept, LOBE_CURVATURE] = bend
         lobes[kept, LOBE_LEFT] = table[nodes + NODE_WIDTH * first_node]
         lobes[kept, LOBE_SEPARATION] = 1.0
+        lobes[kept, MERGED_DEPTH] = 0.0
         if kept > 0:
             before = table[nodes + NODE_WIDTH * max(valley_node - 1, 0)]
             after = table[nodes + NODE_WIDTH * min(valley_node + 1, final_node)]
             before = max(before, lobes[kept - 1, LOBE_ARC])
             after = min(after, arc)
             border, _, depth, _ = level_tangent(
-                table, side, before, after, -1.0, cy, cz, lx, ly, lz
+                table, side, before, after, 0.5 * (before + after), -1.0, cy, cz, lx, ly, lz
             )
             lobes[kept - 1, LOBE_RIGHT] = border
             lobes[kept, LOBE_LEFT] = border
@@ -233,33 +258,34 @@ def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx
     direction = 1.0 if limit > arc else -1.0
     reach = abs(limit - arc)
     excess = penetration - level
-    # A sharper start than the true curvature only costs a step; a flat one would leave the zone.
-    guess = math.sqrt(2.0 * excess / max(bend, 0.5))
+    # Where the gap is nearly flat the parabola's width is no guide: start within 1 cm or so.
+    distance = min(math.sqrt(2.0 * excess / max(bend, 0.5)), reach)
     inner = 0.0
     outer = reach
-    distance = min(guess, reach)
-    for _ in range(12):
-        depth, sine, _, new_foot = probe(
+    for _ in range(20):
+        depth, sine, _, _ = probe(
             table, side, arc + direction * distance, foot + direction * distance,
             cy, cz, lx, ly, lz,
         )  # fmt: skip
         rest = depth - level
-        if abs(rest) < 1.0e-4 * excess:
-            break
+        slope = direction * sine
+        step = rest / slope if slope > 1.0e-9 else math.copysign(reach, rest)
         if rest > 0.0:
             if distance >= reach:
                 break
             inner = distance
         else:
             outer = distance
-        slope = direction * sine
-        trial = distance + rest / slope if slope > 1.0e-9 else outer
-        if trial <= inner or trial >= outer:
-            trial = 0.5 * (inner + outer) if outer < reach or trial <= inner else reach
-        # Newton may leap over a rise behind a shallow dip: go out in steps of half the guess.
-        distance = min(trial, distance + 0.75 * guess)
+        if abs(rest) < 3.0e-3 * excess and inner <= distance + step <= outer:
+            # The error left is of second order in this step, and of fourth in the integrals.
+            distance += step
+            break
+        trial = min(distance + step, 2.5 * distance)
+        if trial <= inner or trial > outer:
+            trial = outer if outer >= reach and rest > 0.0 else 0.5 * (inner + outer)
         if outer - inner < 1.0e-9:
             break
+        distance = trial
     return arc + direction * distance
 
 
@@ -281,8 +307,8 @@ def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, 
         length = abs(end - arc)
         for k in range(4):
             place = arc + (end - arc) * GAUSS_4[k][0]
-            _, py, pz, ny, nz, _, _, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
-            at, _, _, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
+            py, pz, ny, nz, _ = wheel_section(table, side, place, cy, cz, lx, ly, lz)
+            at, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
             weight = GAUSS_4[k][1] * length * max(-height - level, 0.0)
             total += weight
             total_arc += weight * place

@@ -93,7 +93,9 @@ def contact_parameters(
     Raises WheelsetError for unknown names and impossible values.
     """
     if normal not in NORMAL_MODELS:
-        raise WheelsetError(f"normal = {normal!r} is unknown: use one of {', '.join(NORMAL_MODELS)}")
+        raise WheelsetError(
+            f"normal = {normal!r} is unknown: use one of {', '.join(NORMAL_MODELS)}"
+        )
     checks = (
         ("friction", friction, 0.0, 5.0, "0 to 5"),
         ("shear_modulus", shear_modulus, 1.0e6, 1.0e13, "a modulus in Pa, such as 82e9"),
