@@ -209,7 +209,9 @@ class _RadiusDifference:
     def sine_slope(self, centre: float, amplitude: float) -> float:
         """Slope [-] of the first harmonic of Delta_r(centre + amplitude sin(angle))."""
         y, height = self.between(*self._window(centre, amplitude))
-        u = np.clip((y - centre) / amplitude, -1.0, 1.0)
+        u = (y - centre) / amplitude
+        # The arc sine would make 1e-8 of a rounding error at its ends.
+        u[[0, -1]] = -1.0, 1.0
         slope = np.diff(height) / np.diff(u)
         start = height[:-1] - slope * u[:-1]
         cosine, angle = np.sqrt(1.0 - u * u), np.arcsin(u)
