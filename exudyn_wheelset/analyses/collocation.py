@@ -28,9 +28,11 @@ from exudyn_wheelset.analyses.orbit import Orbit, OrbitError, basis_of, windows_
 from exudyn_wheelset.analyses.system import DIFFERENCE_STEP, Array, DynamicSystem
 from exudyn_wheelset.errors import WheelsetError
 
-# One-sided difference step in scales: it leaves 1e-6 in a Jacobian, which moves no orbit (the
-# defects are exact) and a multiplier by as little; a contact search resolves a nanometre.
-FORWARD_STEP = 1e-6
+# One-sided difference step in scales, a micrometre for a wheelset. Contact on real profiles jumps
+# from place to place with a small jump of the force; a finer difference would make a large slope
+# of it and throw Newton off. A smooth f loses 1e-3 of its slope by it, with opposite signs in the
+# two halves of a symmetric orbit. Defects are exact, so orbits and folds do not move.
+FORWARD_STEP = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,11 +196,19 @@ class Collocation:
         )
 
     def inner(self, mesh: Array, direction: Direction) -> Functional:
-        """The scalar product with a direction: mean over the phase plus period and speed."""
+        """The scalar product with a direction: covariance over the phase plus period and speed.
+
+        Means are left out: the spin of a wheelset follows the speed by 1/radius, and would make
+        the length of a direction a measure of the speed alone, which turns back at a fold.
+        """
         degree = direction.orbit.shape[1] - 1
         basis = basis_of(degree)
+        widths = np.diff(mesh)
         gram = basis.values.T @ (basis.weights[:, None] * basis.values)
-        weighted = np.einsum("i,jk,ikn->ijn", np.diff(mesh), gram, direction.orbit)
+        weighted = np.einsum("i,jk,ikn->ijn", widths, gram, direction.orbit)
+        weights = widths[:, None] * (basis.weights @ basis.values)
+        mean = np.einsum("ij,ijn->n", weights, direction.orbit)
+        weighted -= weights[:, :, None] * mean
         return Functional(weighted, direction.period, direction.speed)
 
     def norm(self, mesh: Array, direction: Direction) -> float:
@@ -208,13 +218,8 @@ class Collocation:
         return float(np.sqrt(max(square, 0.0)))
 
     def size(self, orbit: Orbit) -> float:
-        """Root mean square distance of the orbit from its mean, in scales (sum over states)."""
-        windows = self.windows(orbit)
-        basis = basis_of(orbit.degree)
-        widths = np.diff(orbit.mesh)
-        weights = widths[:, None] * (basis.weights @ basis.values)
-        mean = np.einsum("ij,ijn->n", weights, windows)
-        return self.norm(orbit.mesh, Direction(windows - mean, 0.0, 0.0))
+        """Distance of the orbit from its mean, in scales (root mean square over the phase)."""
+        return self.norm(orbit.mesh, Direction(self.windows(orbit), 0.0, 0.0))
 
     def phase(self, orbit: Orbit) -> Functional:
         """The form <., dx_ref/ds> of the phase condition about the orbit as reference."""

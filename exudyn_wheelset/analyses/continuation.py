@@ -37,6 +37,7 @@ class ContinuationSettings:
 
     intervals, degree   mesh intervals of an orbit and polynomial degree on each
     tolerance           of Newton's correction, relative to the size of the orbit
+    roughness           correction at which an orbit is taken if it falls no further (f jumps)
     first_amplitude     of the first orbit off a Hopf point, in units of the state's scale
     growth              largest change of the orbit in one step, as a fraction of its size
     speed_steps         the speed range is crossed in at least this many steps
@@ -52,6 +53,7 @@ class ContinuationSettings:
     intervals: int = INTERVALS
     degree: int = DEGREE
     tolerance: float = 1e-8
+    roughness: float = 1e-3
     first_amplitude: float = 0.05
     growth: float = 0.3
     speed_steps: int = 25
@@ -136,7 +138,13 @@ def hopf_start(
         tangent = _unit(equations, mesh, equations.difference(guess, resting))
         row = equations.inner(mesh, tangent)
         try:
-            found = solve_orbit(equations, guess, row, tolerance=settings.tolerance)
+            found = solve_orbit(
+                equations,
+                guess,
+                row,
+                tolerance=settings.tolerance,
+                roughness=settings.roughness,
+            )
         except OrbitError as error:
             failure = str(error)
         else:
@@ -207,7 +215,7 @@ class _Follower:
             row = speed_row(orbit, size)
             row = Functional(row.orbit, 0.0, float(heading))
         self.base = self._base(orbit, condensed, row)
-        self.first, self.length = self.base, 0.0
+        self.first, self.away = self.base, False
         self._keep(self._point(self.base))
         self.step = 0.3 * self._largest_step()
         self.size = self.equations.size(orbit)
@@ -261,7 +269,6 @@ class _Follower:
         if new.tangent.speed * tangent.speed < 0.0:
             self._locate_fold(base, new, length)
         self.base = new
-        self.length += length
         self._keep(self._point(new))
         if end is not None:
             return self._left(end)
@@ -370,17 +377,17 @@ class _Follower:
         return ""
 
     def _is_back(self, orbit: Orbit) -> bool:
-        first = self.first.orbit
-        if len(self.points) < 8 or abs(orbit.speed - first.speed) > 0.5 * self.equations.speed_unit:
-            return False
-        if abs(orbit.period - first.period) > 0.01 * first.period:
-            return False
+        """Whether the branch, after it went away, is next to its start and goes the same way."""
+        first, unit = self.first.orbit, self.equations.speed_unit
         here = orbit.half_peak_to_peak() / self.equations.scales
         there = first.half_peak_to_peak() / self.equations.scales
+        change = float(np.linalg.norm(here - there) / np.linalg.norm(there))
+        distance = abs(orbit.speed - first.speed) / unit
+        self.away = self.away or change > 0.1 or distance > 0.1
         passed = (orbit.speed - first.speed) * self.first.tangent.speed > 0.0
-        alike = np.linalg.norm(here - there) < 0.02 * np.linalg.norm(there)
         same_way = self.base.tangent.speed * self.first.tangent.speed > 0.0
-        return bool(alike and passed and same_way)
+        near = change < 0.03 and distance < 2.0 / self.settings.speed_steps
+        return self.away and passed and same_way and near
 
     def _solve(self, guess: Orbit, row: Functional, base: _Base) -> Solution:
         return solve_orbit(
@@ -390,6 +397,7 @@ class _Follower:
             condensed=base.condensed,
             reference=base.orbit,
             tolerance=self.settings.tolerance,
+            roughness=self.settings.roughness,
         )
 
     def _end_passed(self, speed: float) -> float | None:

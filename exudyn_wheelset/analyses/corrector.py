@@ -20,12 +20,18 @@ from exudyn_wheelset.analyses.system import Array
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """A converged orbit, the last condensed equations (near it, not at it) and Newton's steps."""
+    """A converged orbit and how it was reached.
+
+    condensed   the last condensed equations, near the orbit, not at it
+    iterations  Newton's steps, and refreshed: how often Jacobians were computed
+    error       last correction, relative to the size of the orbit
+    """
 
     orbit: Orbit
     condensed: Condensed
     iterations: int
     refreshed: int
+    error: float
 
 
 def solve_orbit(
@@ -36,29 +42,27 @@ def solve_orbit(
     condensed: Condensed | None = None,
     reference: Orbit | None = None,
     tolerance: float = 1e-9,
+    roughness: float = 0.0,
     iterations: int = 25,
     contraction: float = 0.6,
+    refreshes: int = 4,
 ) -> Solution:
     """Periodic orbit near `guess` on which `row` of (orbit - guess) has the value `target`.
 
-    Newton's method with the equations `condensed` at a neighbour: from step to step they are kept
-    and corrected by Broyden's rank-one formula (Kelley, Iterative Methods for Linear and
-    Nonlinear Equations, SIAM 1995, section 7.3). Only when a correction is larger than
-    `contraction` times the one before are the Jacobians computed anew. A step that does not
-    reduce the defects is halved. Converged when the correction, relative to the size of the orbit,
-    is below `tolerance` (in the largest component). Raises OrbitError.
+    `condensed` are the equations at a neighbour; without them the first Jacobians are those of the
+    guess. Jacobians are computed anew, at most `refreshes` times, when a correction is larger than
+    `contraction` times the one before. A step that does not reduce the defects is halved.
+    Converged when the correction, relative to the size of the orbit, is below `tolerance` (in the
+    largest component). Where f jumps (a contact point that changes place) the corrections may stop
+    falling: an orbit with one below `roughness` is then taken. Raises OrbitError.
     """
     reference = reference or guess
     phase = equations.phase(reference)
-    orbit = guess
-    defects = equations.defects(orbit)
-    fresh = condensed is None
-    refreshed = 0
-    if condensed is None:
-        condensed = equations.condense(orbit)
-        refreshed = 1
     size = max(equations.size(guess), 1e-12)
-    previous = np.inf
+    orbit, defects = guess, equations.defects(guess)
+    fresh, refreshed = condensed is None, int(condensed is None)
+    condensed = condensed or equations.condense(orbit)
+    previous, best, best_orbit = np.inf, np.inf, orbit
     steps: list[Direction] = []
     for iteration in range(1, iterations + 1):
         moved = equations.difference(orbit, guess)
@@ -70,26 +74,27 @@ def solve_orbit(
         step = _broyden(condensed.solve(defects, [phase, row], values), steps)
         length = _relative_size(step, size, orbit, equations)
         if not np.isfinite(length):
-            raise OrbitError("Newton's correction is not finite")
+            break
         if length < tolerance:
-            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed)
+            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed, length)
+        if length < best:
+            best, best_orbit = length, orbit
         if not fresh and length > contraction * previous:
-            # Rounding of f, or a corner of f that is crossed to and fro, sets a floor.
-            if length < 1e3 * tolerance and refreshed:
-                return Solution(orbit, condensed, iteration, refreshed)
+            # Rounding of f sets a floor to the corrections.
+            if refreshed >= refreshes or (refreshed and length < 1e3 * tolerance):
+                break
             condensed = equations.condense(orbit)
             refreshed += 1
-            fresh = True
-            previous = np.inf
-            steps = []
+            fresh, previous, steps = True, np.inf, []
             continue
         orbit, defects, factor = _damped(equations, orbit, defects, step, length)
         steps = [*steps, step] if factor == 1.0 else []
-        previous = length
-        fresh = False
+        previous, fresh = length, False
+    if best < max(roughness, 1e3 * tolerance):
+        return Solution(best_orbit, condensed, iteration, refreshed, best)
     raise OrbitError(
-        f"Newton did not converge in {iterations} steps at {orbit.speed:.4f} m/s; the last "
-        f"correction was {previous:.2g} of the orbit"
+        f"Newton did not converge in {iteration} steps at {orbit.speed:.4f} m/s; the smallest "
+        f"correction was {best:.2g} of the orbit"
     )
 
 
