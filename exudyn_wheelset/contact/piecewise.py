@@ -37,9 +37,12 @@ COLUMNS = (
 )
 # A contact point that moves more than this between two close shifts has jumped [m].
 JUMP = 1.0e-3
-# A jump is located this closely [m]; of jumps nearer to each other than _CLOSEST one is kept.
+# A jump is located this closely [m]; of jumps nearer to each other than _CLOSEST one is kept (on
+# the steep start of a flange the contact may go over within nanometres of a fold).
 _BRACKET = 2.0e-12
 _CLOSEST = 2.0e-7
+# Pieces are sampled from this far beside a jump [m]: nearer, either branch may be found.
+_BESIDE = 5.0e-8
 _POINTS = [2, 3, 6, 7]
 REPRESENTATIONS = ("cubic", "polynomial")
 
@@ -101,8 +104,8 @@ def piecewise_geometry(
     for low, high in pairwise(breaks):
         inner = y[(y > low + 0.5 * spacing) & (y < high - 0.5 * spacing)]
         # Beside a jump the contact moves fast: closer points there.
-        reach = min(2.0 * spacing, 0.5 * (high - low) - _BRACKET)
-        closer = _BRACKET + reach * np.array([0.0, 0.004, 0.02, 0.06, 0.14, 0.28, 0.5, 0.75, 1.0])
+        reach = min(2.0 * spacing, 0.5 * (high - low) - _BESIDE)
+        closer = _BESIDE + reach * np.array([0.0, 0.004, 0.02, 0.06, 0.14, 0.28, 0.5, 0.75, 1.0])
         inner = inner[(inner > low + 1.1 * reach) & (inner < high - 1.1 * reach)]
         samples = np.unique(np.concatenate([low + closer, inner, high - closer]))
         exact = geometry_columns(contact_geometry(wheelset, track, samples))
@@ -133,9 +136,12 @@ def _locate_jumps(wheelset: Wheelset, track: Track, low: float, high: float) -> 
             low, at_low = middle, here
     if np.abs(at_high - at_low).max() < 0.1 * JUMP:
         return []
-    before = _locate_jumps(wheelset, track, first, low) if low - first > _CLOSEST else []
-    after = _locate_jumps(wheelset, track, high, last) if last - high > _CLOSEST else []
-    return [*before, 0.5 * (low + high), *after]
+    before, after = low - _CLOSEST, high + _CLOSEST
+    return [
+        *(_locate_jumps(wheelset, track, first, before) if before > first else []),
+        0.5 * (low + high),
+        *(_locate_jumps(wheelset, track, after, last) if after < last else []),
+    ]
 
 
 def _smooth_piece(y, values, low, high, representation, tolerance, highest_degree):

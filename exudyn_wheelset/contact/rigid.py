@@ -169,8 +169,8 @@ def least_gap(table, side, cy, lx, ly, lz):
             continue
         place = (py - start) / step
         cell = int(place)
-        at = grid + 2 * cell
-        height = table[at] + (place - cell) * (table[at + 2] - table[at])
+        at = grid + cell
+        height = table[at] + (place - cell) * (table[at + 1] - table[at])
         gaps[node] = w * lz + r * (along * lz - root * ly) - height
         lowest = min(lowest, gaps[node])
     best = second = np.inf
@@ -207,28 +207,62 @@ def gap_difference(table, y, roll, yaw):
 
 
 @njit(cache=True, error_model="numpy")
+def _crest(table, y, yaw, direction, one, other):
+    """Roll angle between two where direction times the difference is not negative, or NaN.
+
+    Golden section towards the maximum.
+    """
+    ratio = 0.6180339887498949
+    inner = other - ratio * (other - one)
+    outer = one + ratio * (other - one)
+    f_inner = direction * gap_difference(table, y, inner, yaw)[0]
+    f_outer = direction * gap_difference(table, y, outer, yaw)[0]
+    for _ in range(36):
+        if f_inner >= 0.0:
+            return inner
+        if f_outer >= 0.0:
+            return outer
+        if f_inner > f_outer:
+            other, outer, f_outer = outer, inner, f_inner
+            inner = other - ratio * (other - one)
+            f_inner = direction * gap_difference(table, y, inner, yaw)[0]
+        else:
+            one, inner, f_inner = inner, outer, f_outer
+            outer = one + ratio * (other - one)
+            f_outer = direction * gap_difference(table, y, outer, yaw)[0]
+    return np.nan
+
+
+@njit(cache=True, error_model="numpy")
 def _roll_root(table, y, yaw, guess):
     """Roll angle at which both distances agree, or NaN without contact in range.
 
     A steep flange may agree at several angles: the first one on the way from `guess` is taken.
     """
-    low, high = guess - 2.0e-4, guess + 2.0e-4
-    f_low = gap_difference(table, y, low, yaw)[0]
-    f_high = gap_difference(table, y, high, yaw)[0]
-    widen = _ROLL_STEP
-    while not (f_low <= 0.0 <= f_high):
-        if not (f_low <= 0.0):
-            high, f_high = low, f_low
-            low -= widen
-            f_low = gap_difference(table, y, low, yaw)[0]
-        else:
-            low, f_low = high, f_high
-            high += widen
-            f_high = gap_difference(table, y, high, yaw)[0]
-        if abs(0.5 * (low + high) - guess) > _WALKED_ROLL:
-            widen *= 1.5
-        if widen > 2.0 * _ROLL_RANGE or not (f_low < np.inf) or not (f_high > -np.inf):
+    near = before = guess
+    difference = gap_difference(table, y, guess, yaw)[0]
+    direction = 1.0 if difference <= 0.0 else -1.0
+    f_near = f_before = direction * difference
+    step = 0.5 * _ROLL_STEP
+    while True:
+        far = near + direction * step
+        f_far = direction * gap_difference(table, y, far, yaw)[0]
+        if not (-np.inf < f_near and -np.inf < f_far < np.inf) or step > _ROLL_RANGE:
             return np.nan
+        if f_far >= 0.0:
+            break
+        if f_near >= f_before and f_near > f_far:
+            crest = _crest(table, y, yaw, direction, before, far)
+            if crest == crest:
+                near, f_near, far = before, f_before, crest
+                f_far = direction * gap_difference(table, y, far, yaw)[0]
+                break
+        before, f_before, near, f_near = near, f_near, far, f_far
+        step = _ROLL_STEP if abs(near - guess) < _WALKED_ROLL else 1.5 * step
+    if direction > 0.0:
+        low, f_low, high, f_high = near, f_near, far, f_far
+    else:
+        low, f_low, high, f_high = far, -f_far, near, -f_near
     side = 0
     for _ in range(80):
         if high - low < 1.0e-13 or f_high == f_low:
