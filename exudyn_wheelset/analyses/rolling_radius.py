@@ -17,10 +17,23 @@ import numpy as np
 from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.locus import wheel_point
-from exudyn_wheelset.contact.rigid import contact_geometry, least_gap
-from exudyn_wheelset.contact.tables import HEADER, contact_tables
+from exudyn_wheelset.contact.rigid import (
+    ContactGeometry,
+    ContactSide,
+    contact_geometry,
+    least_gap,
+)
+from exudyn_wheelset.contact.tables import (
+    DATUM,
+    HEADER,
+    RAIL,
+    RAIL_SEGMENTS,
+    RAIL_SPACING,
+    contact_tables,
+)
 from exudyn_wheelset.errors import ContactError, WheelsetError
 
 FloatArray = NDArray[np.float64]
@@ -31,24 +44,37 @@ def rolling_radius_difference(
 ) -> FloatArray:
     """Return r_left - r_right [m] of the rigid contact at shifts y, shape (n,) [m], yaw 0.
 
-    neglect_roll holds the axle level, so each wheel touches where its own vertical distance to the
-    rail is least: the assumption behind EN 15302's reference values.
+    neglect_roll holds the axle level, see `level_contact_geometry`.
     Raises ContactError where a wheel has left its rail.
     """
-    if not neglect_roll:
-        return contact_geometry(wheelset, track, y).rolling_radius_difference
-    shifts = np.atleast_1d(np.asarray(y, dtype=float))
+    geometry = level_contact_geometry if neglect_roll else contact_geometry
+    return geometry(wheelset, track, y).rolling_radius_difference
+
+
+def level_contact_geometry(wheelset: Wheelset, track: Track, y: ArrayLike) -> ContactGeometry:
+    """Return the contact of each wheel alone with a level axle at shifts y, shape (n,) [m], yaw 0.
+
+    Each wheel touches where its own vertical distance to the rail is least, and the heights of both
+    sides do not agree: the assumption behind EN 15302's reference values. z is the mean of both.
+    Raises ContactError where a wheel has left its rail.
+    """
+    shifts = np.array(np.atleast_1d(y), dtype=float)
     if not np.all(np.isfinite(shifts)):
         raise WheelsetError("y must be finite numbers [m]")
-    difference = np.empty_like(shifts)
-    _level_axle(contact_tables(wheelset, track), shifts, difference)
-    lost = np.flatnonzero(np.isnan(difference))
+    sides = np.full((2, len(shifts), 9), np.nan)
+    table = contact_tables(wheelset, track)
+    _level_side(table, 0, shifts, sides[0])
+    _level_side(table, HEADER, -shifts, sides[1])
+    lost = np.flatnonzero(np.isnan(sides[:, :, 0]).any(axis=0))
     if len(lost):
         raise ContactError(
             f"no contact with a level axle at y = {shifts[lost[0]] * 1e3:.3f} mm: a wheel has left "
             "its rail; give a smaller shift or check gauge and tape_half_distance"
         )
-    return difference
+    left, right = (ContactSide(*rows[:, 1:].T.copy()) for rows in sides)
+    heights = -0.5 * (sides[0, :, 0] + sides[1, :, 0]) - wheelset.radius
+    level = np.zeros(len(shifts))
+    return ContactGeometry(shifts, level, level.copy(), heights, left, right)
 
 
 def contact_range(
@@ -88,12 +114,28 @@ def contact_range(
 
 
 @njit(cache=True, error_model="numpy")
-def _level_axle(table, y, difference):
-    """Radius difference with the axle parallel to the plane of the rail tops."""
+def _level_side(table, side, y, rows):
+    """Fill gap and the fields of ContactSide; NaN where there is no contact."""
+    offset = int(table[side + RAIL])
+    spacing = table[side + RAIL_SPACING]
+    segments = int(table[side + RAIL_SEGMENTS])
     for k in range(len(y)):
-        left = least_gap(table, 0, y[k], 0.0, 1.0, 0.0)[1]
-        right = least_gap(table, HEADER, -y[k], 0.0, 1.0, 0.0)[1]
-        difference[k] = (
-            wheel_point(table, 0, left, y[k], 0.0, 0.0, 1.0, 0.0)[5]
-            - wheel_point(table, HEADER, right, -y[k], 0.0, 0.0, 1.0, 0.0)[5]
+        gap, arc, at, second, second_arc, second_at = least_gap(table, side, y[k], 0.0, 1.0, 0.0)
+        if not gap < np.inf:
+            continue
+        row = rows[k]
+        x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(
+            table, side, arc, y[k], 0.0, 0.0, 1.0, 0.0
         )
+        row[0] = gap
+        row[1] = wheel_y
+        row[2] = curve_point(table, offset, spacing, segments, at)[0] - table[side + DATUM]
+        row[3] = math.atan2(ny, -nz)
+        row[4] = radius
+        row[5] = x
+        if second < np.inf:
+            row[6] = wheel_point(table, side, second_arc, y[k], 0.0, 0.0, 1.0, 0.0)[6]
+            row[7] = (
+                curve_point(table, offset, spacing, segments, second_at)[0] - table[side + DATUM]
+            )
+            row[8] = second - gap
