@@ -25,8 +25,8 @@ def _require_positive(what: str, value: float, unit: str, largest: float) -> Non
         raise WheelsetError(f"{what} = {value!r} {unit}: give a positive number in {unit}")
     if value > largest:
         raise WheelsetError(
-            f"{what} = {value!r} {unit} is out of proportion (largest accepted {largest:g} {unit}): "
-            f"is it given in {unit}?"
+            f"{what} = {value!r} {unit} is out of proportion: the largest accepted is "
+            f"{largest:g} {unit}; is it given in {unit}?"
         )
 
 

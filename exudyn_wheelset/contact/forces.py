@@ -12,9 +12,9 @@ V is the forward speed over the rails.
 Two neighbouring lobes with penetrations delta_1, delta_2 become one patch when the valley between
 them disappears. With the separation s (search.py), the patch of lobe j carries
     N_j = s N(delta_j, B_j) + (1 - s) share_j N(max delta, B_merged),
-where B_merged belongs to the zone over both lobes and share_j to lobe j's part of it; ellipse and
-position are blended alike, the merged ellipse's lateral axis split by share_j so that the shares'
-creep stiffness adds up to the whole. So a lobe enters and leaves without a step in force.
+where B_merged belongs to the zone over both lobes and share_j to lobe j's part of it; creep force,
+ellipse and position are blended alike (a share of a merged patch has its share of that patch's
+creep force). So a lobe enters and leaves without a step in force.
 
 The right side is computed as the left side of the mirrored wheelset and mirrored back, so mirror
 symmetry holds to rounding.
@@ -44,7 +44,15 @@ from exudyn_wheelset.contact.search import (
     find_lobes,
     zone_moments,
 )
-from exudyn_wheelset.contact.tables import DATUM, HEADER, RADIUS, RAIL, RAIL_SEGMENTS, RAIL_SPACING
+from exudyn_wheelset.contact.tables import (
+    DATUM,
+    HEADER,
+    MOST_NODES,
+    RADIUS,
+    RAIL,
+    RAIL_SEGMENTS,
+    RAIL_SPACING,
+)
 from exudyn_wheelset.creep import creep_kernel
 from exudyn_wheelset.normal.hertz import hertz_from_approach
 
@@ -73,21 +81,32 @@ PARAMETER_COUNT = 16
     PATCH_NORMAL_Y,
     PATCH_NORMAL_Z,
     PATCH_ENERGY,
-) = range(20)
-PATCH_WIDTH = 20
+    PATCH_SEPARATION,
+    PATCH_OWN_FORCE,
+    PATCH_OWN_A,
+    PATCH_OWN_B,
+    PATCH_SHARE,
+    PATCH_MERGED_FORCE,
+    PATCH_MERGED_A,
+    PATCH_MERGED_B,
+    PATCH_LOBE,
+    PATCH_PARTNER,
+) = range(30)
+PATCH_WIDTH = 30
 
 # Result array: wrench (6), numbers of patches left and right, then the patches of either side.
 COUNT_LEFT, COUNT_RIGHT, PATCHES = 6, 7, 8
 RESULT_SIZE = PATCHES + 2 * MOST_LOBES * PATCH_WIDTH
 HERTZ, HERTZ_LOCAL, VIRTUAL_PENETRATION = 0, 1, 2
-_SCRATCH = MOST_LOBES * LOBE_WIDTH
+_DEPTHS = RESULT_SIZE + MOST_LOBES * LOBE_WIDTH
+_FACTORS = _DEPTHS + MOST_NODES
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1
 
 
 def new_result() -> np.ndarray:
     """Array that the kernels write into; one for each wheelset."""
-    return np.zeros(RESULT_SIZE + _SCRATCH)
+    return np.zeros(_FACTORS + MOST_LOBES)
 
 
 @njit(cache=True, error_model="numpy")
@@ -139,9 +158,9 @@ def _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes):
 
 
 @njit(cache=True, error_model="numpy")
-def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes):
+def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes, depths):
     """Normal contact of one side: fills patch rows with geometry and elastic force; their count."""
-    count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes)
+    count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths)
     for k in range(count):
         _lobe_moments(table, side, k, lobes[k, LOBE_PENETRATION], OWN, cy, cz, lx, ly, lz, lobes)
     merging = parameters[NORMAL] != HERTZ_LOCAL
@@ -165,6 +184,10 @@ def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobe
         else:
             force, a, b = _ellipse(zone, depth, radius, nz, parameters)
         # Merge with the neighbour that is less separated.
+        row = out + kept * PATCH_WIDTH
+        result[row + PATCH_OWN_FORCE] = force
+        result[row + PATCH_OWN_A] = a
+        result[row + PATCH_OWN_B] = b
         separation = lobes[k, LOBE_SEPARATION]
         other = k + 1
         if k > 0 and lobes[k - 1, LOBE_SEPARATION] < separation:
@@ -186,13 +209,21 @@ def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobe
                 at += weight * (lobes[k, mine + 2] / own - at)
                 my, mz = _unit(lobes[k, mine + 3], lobes[k, mine + 4])
                 ny, nz = _unit(ny + weight * (my - ny), nz + weight * (mz - nz))
+            result[row + PATCH_SHARE] = share
+            result[row + PATCH_MERGED_FORCE] = merged_force
+            result[row + PATCH_MERGED_A] = merged_a
+            result[row + PATCH_MERGED_B] = merged_b
             force = separation * force + rest * merged_force
             a = separation * a + (1.0 - separation) * merged_a
             b = separation * b + rest * merged_b
+        else:
+            separation = 1.0
+        result[row + PATCH_SEPARATION] = separation
+        result[row + PATCH_LOBE] = k
+        result[row + PATCH_PARTNER] = other
         if force <= 0.0 or b <= 0.0:
             continue
         px, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
-        row = out + kept * PATCH_WIDTH
         rail_y, _, _, _, _, _ = curve_point(
             table, int(table[side + RAIL]), table[side + RAIL_SPACING],
             int(table[side + RAIL_SEGMENTS]), at,
@@ -215,6 +246,45 @@ def _side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobe
     return kept
 
 
+@njit(cache=True, error_model="numpy", inline="always")
+def _patch_creep(
+    law, creep_x, creep_y, spin, factor, parameters, law_parameters, result, row, out, count
+):  # fmt: skip
+    """Creep force of a patch; `factor` is what damping makes of the elastic normal force."""
+    fx = 0.0
+    fy = 0.0
+    mz = 0.0
+    separation = result[row + PATCH_SEPARATION]
+    if factor <= 0.0:
+        return fx, fy, mz
+    if separation > 0.0:
+        fx, fy, mz = creep_kernel(
+            law, creep_x, creep_y, spin, result[row + PATCH_OWN_A], result[row + PATCH_OWN_B],
+            factor * result[row + PATCH_OWN_FORCE], parameters[FRICTION],
+            parameters[SHEAR_MODULUS], parameters[POISSON], law_parameters,
+        )  # fmt: skip
+    if separation < 1.0:
+        # A share of a merged patch has its share of the creep force of the whole, which slips
+        # with the mean creepage.
+        share = result[row + PATCH_SHARE]
+        for k in range(count):
+            other = out + k * PATCH_WIDTH
+            if result[other + PATCH_LOBE] == result[row + PATCH_PARTNER]:
+                creep_x += (1.0 - share) * (result[other + PATCH_CREEP_X] - creep_x)
+                creep_y += (1.0 - share) * (result[other + PATCH_CREEP_Y] - creep_y)
+                spin += (1.0 - share) * (result[other + PATCH_SPIN] - spin)
+        gx, gy, gz = creep_kernel(
+            law, creep_x, creep_y, spin, result[row + PATCH_MERGED_A],
+            result[row + PATCH_MERGED_B], factor * result[row + PATCH_MERGED_FORCE],
+            parameters[FRICTION], parameters[SHEAR_MODULUS], parameters[POISSON], law_parameters,
+        )  # fmt: skip
+        rest = (1.0 - separation) * share
+        fx = separation * fx + rest * gx
+        fy = separation * fy + rest * gy
+        mz = separation * mz + rest * gz
+    return fx, fy, mz
+
+
 @njit(cache=True, error_model="numpy")
 def wheelset_forces(
     table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result
@@ -229,8 +299,9 @@ def wheelset_forces(
     Patches on the right side come back in the right-handed triad of the track frame; positions
     and angles count towards the field side.
     """
-    lobes = result[RESULT_SIZE:].reshape(MOST_LOBES, LOBE_WIDTH)
-    friction = parameters[FRICTION]
+    lobes = result[RESULT_SIZE:_DEPTHS].reshape(MOST_LOBES, LOBE_WIDTH)
+    depths = result[_DEPTHS:_FACTORS]
+    factors = result[_FACTORS:]
     forward = vx + parameters[RAIL_SPEED]
     speed = max(abs(forward), LEAST_SPEED)
     law = int(parameters[LAW])
@@ -243,7 +314,7 @@ def wheelset_forces(
         count = _side_patches(
             table, side, mirror * (y - rail_motion[2 * hand]),
             table[RADIUS] + z - rail_motion[2 * hand + 1],
-            mirror * lx, ly, mirror * lz, parameters, result, out, lobes,
+            mirror * lx, ly, mirror * lz, parameters, result, out, lobes, depths,
         )  # fmt: skip
         result[COUNT_LEFT + hand] = count
         rail_vy = mirror * rail_motion[4 + 2 * hand]
@@ -265,20 +336,26 @@ def wheelset_forces(
             slip_y = uy + oz * px - ox * pz
             slip_z = uz + ox * py - oy * px
             closing = -(ny * slip_y + nz * slip_z)
+            factors[k] = max(1.0 + parameters[DAMPING] * closing, 0.0)
+            result[row + PATCH_CREEP_X] = slip_x / speed
+            result[row + PATCH_CREEP_Y] = (nz * slip_y - ny * slip_z) / speed
+            result[row + PATCH_SPIN] = (ny * oy + nz * oz) / speed
+        for k in range(count):
+            row = out + k * PATCH_WIDTH
+            px = result[row + PATCH_X]
+            py = result[row + PATCH_Y]
+            pz = result[row + PATCH_Z]
+            ny = result[row + PATCH_NORMAL_Y]
+            nz = result[row + PATCH_NORMAL_Z]
             elastic = result[row + PATCH_NORMAL_FORCE]
-            normal_force = elastic * max(1.0 + parameters[DAMPING] * closing, 0.0)
-            creep_x = slip_x / speed
-            creep_y = (nz * slip_y - ny * slip_z) / speed
-            spin = (ny * oy + nz * oz) / speed
-            fx = 0.0
-            fy = 0.0
-            mz = 0.0
-            if normal_force > 0.0:
-                fx, fy, mz = creep_kernel(
-                    law, creep_x, creep_y, spin, result[row + PATCH_A], result[row + PATCH_B],
-                    normal_force, friction, parameters[SHEAR_MODULUS], parameters[POISSON],
-                    law_parameters,
-                )  # fmt: skip
+            normal_force = elastic * factors[k]
+            creep_x = result[row + PATCH_CREEP_X]
+            creep_y = result[row + PATCH_CREEP_Y]
+            spin = result[row + PATCH_SPIN]
+            fx, fy, mz = _patch_creep(
+                law, creep_x, creep_y, spin, factors[k], parameters, law_parameters,
+                result, row, out, count,
+            )  # fmt: skip
             gy = nz * fy + ny * normal_force
             gz = -ny * fy + nz * normal_force
             my = mz * ny
@@ -292,15 +369,17 @@ def wheelset_forces(
             moment_x += mirror * mx
             moment_y += my
             moment_z += mirror * mzz
-            result[row + PATCH_NORMAL_FORCE] = normal_force
-            result[row + PATCH_CREEP_X] = creep_x
-            result[row + PATCH_CREEP_Y] = mirror * creep_y
-            result[row + PATCH_SPIN] = mirror * spin
             result[row + PATCH_FX] = fx
             result[row + PATCH_FY] = mirror * fy
             result[row + PATCH_MZ] = mirror * mz
-            result[row + PATCH_Y] = mirror * py
-            result[row + PATCH_NORMAL_Y] = mirror * ny
+        for k in range(count):
+            # Only now, when no other patch of the side needs them any more.
+            row = out + k * PATCH_WIDTH
+            result[row + PATCH_NORMAL_FORCE] *= factors[k]
+            result[row + PATCH_CREEP_Y] *= mirror
+            result[row + PATCH_SPIN] *= mirror
+            result[row + PATCH_Y] *= mirror
+            result[row + PATCH_NORMAL_Y] *= mirror
     result[0] = force_x
     result[1] = force_y
     result[2] = force_z

@@ -33,7 +33,7 @@ from exudyn_wheelset.contact.tables import (
 
 @njit(cache=True, error_model="numpy", inline="always")
 def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
-    """Return (x, y, z, normal_y, normal_z) of the contact locus; the normal points into the rail."""
+    """Return (x, y, z, normal_y, normal_z) of the contact locus, the normal into the rail."""
     q = 1.0 - lx * lx
     root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
     along = -lx * lx * t / q

@@ -22,7 +22,7 @@ from exudyn_wheelset.contact.search import (
     find_lobes,
     zone_moments,
 )
-from exudyn_wheelset.contact.tables import HEADER, RADIUS
+from exudyn_wheelset.contact.tables import HEADER, MOST_NODES, RADIUS
 
 
 @njit(cache=True, error_model="numpy")
@@ -33,6 +33,7 @@ def patch_half_curvatures(table, y, roll, z, approach):
     """
     curvatures = np.empty((len(y), 2))
     lobes = np.zeros((MOST_LOBES, LOBE_WIDTH))
+    depths = np.zeros(MOST_NODES)
     for k in range(len(y)):
         ly, lz = np.cos(roll[k]), np.sin(roll[k])
         for hand in range(2):
@@ -40,7 +41,7 @@ def patch_half_curvatures(table, y, roll, z, approach):
             side = hand * HEADER
             cy = mirror * y[k]
             cz = table[RADIUS] + z[k] - approach
-            found = find_lobes(table, side, cy, cz, 0.0, ly, mirror * lz, lobes)
+            found = find_lobes(table, side, cy, cz, 0.0, ly, mirror * lz, lobes, depths)
             deepest = 0
             for j in range(1, found):
                 if lobes[j, LOBE_PENETRATION] > lobes[deepest, LOBE_PENETRATION]:

@@ -32,7 +32,6 @@ from exudyn_wheelset.contact.tables import (
     GRID_STEP,
     HEADER,
     NODE_COUNT,
-    NODE_WIDTH,
     NODES,
     RADIUS,
     RAIL,
@@ -158,10 +157,10 @@ def least_gap(table, side, cy, lx, ly, lz):
     lowest = np.inf
     q = 1.0 - lx * lx
     for node in range(count):
-        base = nodes + NODE_WIDTH * node
-        w = table[base + 1]
-        r = table[base + 2]
-        t = table[base + 3]
+        base = nodes + node
+        w = table[base + count]
+        r = table[base + 2 * count]
+        t = table[base + 3 * count]
         root = math.sqrt(max(q - lx * lx * t * t, 1.0e-6)) / q
         along = -lx * lx * t / q
         py = cy + w * ly + r * (along * ly + root * lz)
@@ -181,11 +180,11 @@ def least_gap(table, side, cy, lx, ly, lz):
         gap = gaps[node]
         before = gaps[node - 1] if node > 0 else np.inf
         after = gaps[node + 1] if node + 1 < count else np.inf
-        window = _SCAN_WINDOW / table[nodes + NODE_WIDTH * node + 4]
+        window = _SCAN_WINDOW / table[nodes + 4 * count + node]
         if gap > lowest + window or gap > before or gap >= after:
             continue
-        low = table[nodes + NODE_WIDTH * max(node - 1, 0)]
-        high = table[nodes + NODE_WIDTH * min(node + 1, count - 1)]
+        low = table[nodes + max(node - 1, 0)]
+        high = table[nodes + min(node + 1, count - 1)]
         arc, gap, at = _refine(table, side, low, high, cy, lx, ly, lz)
         if gap < best:
             second, second_arc, second_at = best, best_arc, best_at

@@ -27,10 +27,10 @@ from numba import njit
 from exudyn_wheelset.contact.locus import rail_foot, wheel_section
 from exudyn_wheelset.contact.tables import (
     GRID,
+    GRID_COUNT,
     GRID_START,
     GRID_STEP,
     NODE_COUNT,
-    NODE_WIDTH,
     NODES,
     RAIL_HIGH,
     RAIL_LOW,
@@ -40,18 +40,20 @@ from exudyn_wheelset.contact.tables import (
 
 VIRTUAL = 0.55
 MOST_LOBES = 3
-SCAN_MARGIN = 6.0e-5
+SCAN_MARGIN = 1.5e-4
+MERGED_PROMINENCE = 0.1
 LOBE_WIDTH = 20
 LOBE_ARC, LOBE_FOOT, LOBE_PENETRATION, LOBE_LEFT, LOBE_RIGHT, LOBE_SEPARATION = 0, 1, 2, 3, 4, 5
 LOBE_CURVATURE = 6
 # Columns for the moments of a lobe's zone, its own and as a part of a merged patch (forces.py).
 OWN, MERGED, MERGED_DEPTH = 8, 13, 18
 
-GAUSS_4 = (
-    (0.06943184420297371, 0.17392742256872693),
-    (0.33000947820757187, 0.32607257743127307),
-    (0.6699905217924281, 0.32607257743127307),
-    (0.9305681557970262, 0.17392742256872693),
+GAUSS = (
+    (0.046910077030668018, 0.11846344252809464),
+    (0.23076534494715845, 0.23931433524968315),
+    (0.5, 0.28444444444444433),
+    (0.7692346550528415, 0.23931433524968315),
+    (0.95308992296933193, 0.11846344252809464),
 )
 
 
@@ -74,8 +76,8 @@ def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
     py = min(max(py, table[side + RAIL_LOW]), table[side + RAIL_HIGH])
     place = (py - table[side + GRID_START]) / table[side + GRID_STEP]
     cell = int(place)
-    base = int(table[side + GRID]) + 2 * cell
-    return table[base + 1] + (place - cell) * (table[base + 3] - table[base + 1])
+    base = int(table[side + GRID] + table[side + GRID_COUNT]) + cell
+    return table[base] + (place - cell) * (table[base + 1] - table[base])
 
 
 @njit(cache=True, error_model="numpy")
@@ -109,12 +111,42 @@ def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
     return arc, foot, penetration, bend
 
 
+@njit(cache=True, error_model="numpy", fastmath=True)
+def _scan(
+    lateral, radii, slopes, flatness, heights, depths,
+    cy, cz, lx, ly, lz, low, high, start, per_step,
+):  # fmt: skip
+    """Fill depths with the penetration of each node below the rail, -1 beside the rail.
+
+    Without branches and with slices, so that the compiler may keep the loop tight. Of the root in
+    locus.py it takes two terms: exact enough to choose a node.
+    """
+    square = lx * lx
+    q = 1.0 / (1.0 - square)
+    most = len(heights) - 2
+    for k in range(len(depths)):
+        w = lateral[k]
+        r = radii[k]
+        t = slopes[k]
+        x = square * (1.0 + t * t)
+        root = (1.0 - x * (0.5 + 0.125 * x)) * q
+        along = -square * t * q
+        py = cy + w * ly + r * (along * ly + root * lz)
+        pz = cz + w * lz + r * (along * lz - root * ly)
+        place = (py - start) * per_step
+        cell = min(max(int(place), 0), most)
+        height = heights[cell] + (place - cell) * (heights[cell + 1] - heights[cell])
+        inside = 1.0 if (py >= low) & (py <= high) else 0.0
+        depths[k] = inside * ((height - pz) * flatness[k] + 1.0) - 1.0
+
+
 @njit(cache=True, error_model="numpy")
-def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
+def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
     """Fill `lobes` (MOST_LOBES, LOBE_WIDTH) for one side; return their number.
 
     Per lobe: wheel arc of the maximum, rail foot, penetration, territory [left, right] in wheel
     arc, separation from the next lobe, 2 B. Lobes beyond MOST_LOBES (the least deep) are dropped.
+    depths (MOST_NODES): room for the scan.
     """
     nodes = int(table[side + NODES])
     count = int(table[side + NODE_COUNT])
@@ -123,56 +155,59 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes):
     per_step = 1.0 / table[side + GRID_STEP]
     low = table[side + RAIL_LOW]
     high = table[side + RAIL_HIGH]
+    # The wheel's lateral position grows with the node: halve the range to where the rail begins.
+    first = 0
+    final = count
+    reach = low - cy - 0.003
+    while final - first > 8:
+        middle = (first + final) // 2
+        if table[nodes + count + middle] * ly + table[nodes + 2 * count + middle] * lz < reach:
+            first = middle
+        else:
+            final = middle
+    final = count
+    reach = high - cy + 0.003
+    low_end = first
+    while final - low_end > 8:
+        middle = (low_end + final) // 2
+        if table[nodes + count + middle] * ly + table[nodes + 2 * count + middle] * lz > reach:
+            final = middle
+        else:
+            low_end = middle
+    at = nodes + first
+    size = final - first
+    cells = int(table[side + GRID_COUNT])
+    depths = depths[:size]
+    _scan(
+        table[at + count : at + count + size],
+        table[at + 2 * count : at + 2 * count + size],
+        table[at + 3 * count : at + 3 * count + size],
+        table[at + 4 * count : at + 4 * count + size],
+        table[grid : grid + cells],
+        depths, cy, cz, lx, ly, lz, low, high, start, per_step,
+    )  # fmt: skip
     found = 0
     before = -1.0
     last = -1.0
     valley = 1.0
     valley_node = -1
-    first_node = -1
-    final_node = -1
-    square = lx * lx
-    q = 1.0 / (1.0 - square)
-    first = 0
-    # Whole blocks of nodes on the track side of the rail are passed over.
-    while first + 8 < count:
-        base = nodes + NODE_WIDTH * (first + 8)
-        if cy + table[base + 1] * ly + table[base + 2] * lz * q > low - 0.01:
-            break
-        first += 8
-    for node in range(first, count):
-        base = nodes + NODE_WIDTH * node
-        w = table[base + 1]
-        r = table[base + 2]
-        t = table[base + 3]
-        root = math.sqrt(max(1.0 - square - square * t * t, 1.0e-6)) * q
-        along = -square * t * q
-        py = cy + w * ly + r * (along * ly + root * lz)
-        if py < low or py > high:
-            if first_node >= 0:
-                break
-            continue
-        if first_node < 0:
-            first_node = node
-        final_node = node
-        pz = cz + w * lz + r * (along * lz - root * ly)
-        place = (py - start) * per_step
-        cell = int(place)
-        at = grid + 2 * cell
-        depth = (table[at] + (place - cell) * (table[at + 2] - table[at]) - pz) * table[base + 4]
-        if last > -SCAN_MARGIN and last >= before and last > depth and node - 1 >= first_node:
+    for k in range(size):
+        depth = depths[k]
+        node = first + k
+        if last > -SCAN_MARGIN and last >= before and last > depth and k > 0:
             found = _note_lobe(lobes, found, node - 1, before, last, depth, valley_node)
             valley = last
             valley_node = node - 1
-        if found > 0 and depth < valley:
+        if depth < valley and found > 0:
             valley = depth
             valley_node = node
         before = last
         last = depth
-    if last > -SCAN_MARGIN and last >= before and final_node > first_node >= 0:
-        found = _note_lobe(lobes, found, final_node, before, last, last, valley_node)
+    if last > -SCAN_MARGIN and last >= before:
+        found = _note_lobe(lobes, found, final - 1, before, last, last, valley_node)
     if found == 0:
         return 0
-    return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node)
+    return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first, final - 1)
 
 
 @njit(cache=True, error_model="numpy")
@@ -214,9 +249,9 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
     for k in range(found):
         node = int(lobes[k, LOBE_ARC])
         valley_node = int(lobes[k, LOBE_LEFT])
-        left = table[nodes + NODE_WIDTH * max(node - 1, 0)]
-        middle = table[nodes + NODE_WIDTH * node]
-        right = table[nodes + NODE_WIDTH * min(node + 1, final_node)]
+        left = table[nodes + max(node - 1, 0)]
+        middle = table[nodes + node]
+        right = table[nodes + min(node + 1, final_node)]
         arc, foot, penetration, bend = level_tangent(
             table, side, left, right, _vertex(left, middle, right, lobes, k), 1.0,
             cy, cz, lx, ly, lz,
@@ -227,12 +262,12 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
         lobes[kept, LOBE_FOOT] = foot
         lobes[kept, LOBE_PENETRATION] = penetration
         lobes[kept, LOBE_CURVATURE] = bend
-        lobes[kept, LOBE_LEFT] = table[nodes + NODE_WIDTH * first_node]
+        lobes[kept, LOBE_LEFT] = table[nodes + first_node]
         lobes[kept, LOBE_SEPARATION] = 1.0
         lobes[kept, MERGED_DEPTH] = 0.0
         if kept > 0:
-            before = table[nodes + NODE_WIDTH * max(valley_node - 1, 0)]
-            after = table[nodes + NODE_WIDTH * min(valley_node + 1, final_node)]
+            before = table[nodes + max(valley_node - 1, 0)]
+            after = table[nodes + min(valley_node + 1, final_node)]
             before = max(before, lobes[kept - 1, LOBE_ARC])
             after = min(after, arc)
             border, _, depth, _ = level_tangent(
@@ -242,6 +277,8 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
             lobes[kept, LOBE_LEFT] = border
             smaller = min(penetration, lobes[kept - 1, LOBE_PENETRATION])
             prominence = (smaller - depth) / (VIRTUAL * smaller)
+            # Nearly one lobe is treated as one: the scan may see it as one as well.
+            prominence = (prominence - MERGED_PROMINENCE) / (1.0 - MERGED_PROMINENCE)
             prominence = min(max(prominence, 0.0), 1.0)
             lobes[kept - 1, LOBE_SEPARATION] = prominence * prominence * (3.0 - 2.0 * prominence)
         kept += 1
@@ -305,11 +342,11 @@ def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, 
         limit = left if half == 0 else right
         end = zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz)
         length = abs(end - arc)
-        for k in range(4):
-            place = arc + (end - arc) * GAUSS_4[k][0]
+        for k in range(5):
+            place = arc + (end - arc) * GAUSS[k][0]
             py, pz, ny, nz, _ = wheel_section(table, side, place, cy, cz, lx, ly, lz)
             at, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
-            weight = GAUSS_4[k][1] * length * max(-height - level, 0.0)
+            weight = GAUSS[k][1] * length * max(-height - level, 0.0)
             total += weight
             total_arc += weight * place
             total_foot += weight * at

@@ -22,11 +22,12 @@ NODES, NODE_COUNT = 9, 10
 GRID, GRID_START, GRID_STEP, GRID_COUNT = 11, 12, 13, 14
 RAIL_LOW, RAIL_HIGH = 15, 16
 HEADER = 24
-NODE_WIDTH = 6
+MOST_NODES = 320
 
-# A node a millimetre sees every patch: the sharpest curvatures in use (12 mm flange tip, 13 mm
-# gauge corner) sag 0.02 mm over half a millimetre, less than SCAN_MARGIN in search.py.
-NODE_SPACING = 1.0e-3
+# Two nodes a pair of millimetres see every patch: the sharpest curvatures in use (12 mm flange tip
+# on a 13 mm gauge corner) sag 0.08 mm over a millimetre, less than SCAN_MARGIN in search.py; lobes
+# closer together than two nodes merge anyway (benchmarks/scan_spacing.py).
+NODE_SPACING = 2.0e-3
 GRID_SPACING = 0.25e-3
 # Steeper parts (flange back, web side of the head) never carry a wheel; without them height is a
 # function of the lateral position.
@@ -84,13 +85,13 @@ def _side_blocks(header, wheel: Profile, radius: float, rail: RailPlacement, tap
     header[RAIL_SPACING] = rail.spacing
     header[RAIL_SEGMENTS] = len(rail_curve)
     nodes = _nodes(wheel_curve, wheel_table.ds, radius, tape)
-    header[NODE_COUNT] = len(nodes)
+    header[NODE_COUNT] = nodes.shape[1]
     grid, start = _grid(rail_curve, rail.spacing)
     header[GRID_START] = start
     header[GRID_STEP] = GRID_SPACING
-    header[GRID_COUNT] = len(grid)
+    header[GRID_COUNT] = grid.shape[1]
     header[RAIL_LOW] = start + GRID_SPACING
-    header[RAIL_HIGH] = start + (len(grid) - 2) * GRID_SPACING
+    header[RAIL_HIGH] = start + (grid.shape[1] - 2) * GRID_SPACING
     return [(wheel_curve, WHEEL), (rail_curve, RAIL), (nodes, NODES), (grid, GRID)]
 
 
@@ -111,25 +112,27 @@ def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
 
 
 def _nodes(curve: np.ndarray, spacing: float, radius: float, tape: float) -> np.ndarray:
-    """Per node: arc length, distance from the axle's centre, radius, dr/dy, 1/sqrt(1+(dr/dy)^2)."""
-    step = max(int(round(NODE_SPACING / spacing)), 1)
+    """Rows: arc length, distance from the axle's centre, radius, dr/dy, 1/sqrt(1 + (dr/dy)^2)."""
+    step = max(round(NODE_SPACING / spacing), 1, -(-len(curve) // MOST_NODES))
     picked = np.arange(0, len(curve), step)
     rows = curve[picked]
     slope = -rows[:, 5] / rows[:, 1]
-    nodes = np.zeros((len(picked), NODE_WIDTH))
-    nodes[:, 0] = picked * spacing
-    nodes[:, 1] = tape + rows[:, 0]
-    nodes[:, 2] = radius - rows[:, 4]
-    nodes[:, 3] = slope
-    nodes[:, 4] = 1.0 / np.sqrt(1.0 + slope * slope)
-    return nodes
+    return np.array(
+        [
+            picked * spacing,
+            tape + rows[:, 0],
+            radius - rows[:, 4],
+            slope,
+            1.0 / np.sqrt(1.0 + slope * slope),
+        ]
+    )
 
 
 def _grid(curve: np.ndarray, spacing: float) -> tuple[np.ndarray, float]:
-    """Rail height and arc length on a uniform lateral grid."""
+    """Rows: rail height and arc length on a uniform lateral grid."""
     start = float(curve[0, 0])
     count = int((curve[-1, 0] - start) / GRID_SPACING)
     lateral = start + GRID_SPACING * np.arange(count)
     arc = np.interp(lateral, curve[:, 0], spacing * np.arange(len(curve)))
     height = np.interp(lateral, curve[:, 0], curve[:, 4])
-    return np.column_stack([height, arc]), start
+    return np.array([height, arc]), start
