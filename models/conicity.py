@@ -55,7 +55,7 @@ def run(
     right_radius: float | None = None,
     origin_half_distance: float | None = None,
     amplitudes_mm: Sequence[float] = TABLE_AMPLITUDES_MM,
-    reach: float = 12.0e-3,
+    reach: float = 15.0e-3,
     neglect_roll: bool = False,
     method: str = "integration",
     out: str | PathLike | None = None,

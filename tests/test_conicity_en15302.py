@@ -7,8 +7,10 @@ r0 = 460 mm, rail profile already inclined. The reference neglects the wheelset'
 
 from __future__ import annotations
 
+import importlib.util
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,6 +26,7 @@ REFERENCE = (
     Path(os.environ.get("EXUDYN_WHEELSET_REFERENCE", REPOSITORY.parent / "shared" / "reference"))
     / "en15302"
 )
+SCRIPT = REPOSITORY / "models" / "conicity.py"
 CASES = {"E1": "A", "E2": "B", "E3": "H", "E4": "I"}
 RADIUS = 0.46
 
@@ -40,7 +43,7 @@ def track() -> Track:
     return Track(rail, origin_half_distance=0.75, inclination=0.0)
 
 
-def wheelset(wheel: str, **right: object) -> Wheelset:
+def wheelset(wheel: str, **right: Any) -> Wheelset:
     profile = load_profile(REFERENCE / f"RUIC519{wheel}.dat", kind="wheel", unit="mm")
     return Wheelset(1000.0, (600.0, 100.0, 600.0), RADIUS, profile, **right)
 
@@ -126,3 +129,27 @@ def test_larger_right_wheel_shifts_the_position_of_rest(track: Track) -> None:
     # The larger wheel touches the same point with a level axle.
     np.testing.assert_allclose(unlike, equal - 2.0e-4, atol=1e-9)
     assert np.all(np.isfinite(equivalent_conicity(y, unlike, [1e-3, 3e-3, 6e-3])))
+
+
+def script():
+    specification = importlib.util.spec_from_file_location("conicity_script", SCRIPT)
+    assert specification is not None and specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(module)
+    return module
+
+
+def test_script_with_profile_files(tmp_path: Path) -> None:
+    amplitudes, _, _, _, upper, lower = reference("E2")
+    numbers = script().run(
+        wheel=REFERENCE / "RUIC519B.dat",
+        rail=REFERENCE / "SUIC519A.dat",
+        origin_half_distance=0.75,
+        inclination=0.0,
+        neglect_roll=True,
+        amplitudes_mm=1e3 * amplitudes,
+        out=tmp_path,
+    )
+    conicity = np.array(list(numbers["conicity"].values()))
+    assert np.all((conicity >= lower) & (conicity <= upper))
+    assert all(Path(path).stat().st_size > 1000 for path in numbers["files"])

@@ -18,12 +18,12 @@ from numpy.typing import ArrayLike
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
 from exudyn_wheelset.contact.rigid import ContactGeometry, ContactSide
+from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, new_figure, tidy
 from exudyn_wheelset.profiles import Profile
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-LEFT_COLOUR, RIGHT_COLOUR = "tab:blue", "tab:red"
 # Treads stay below 10 degrees, flanks of flanges are made with 60 to 75.
 FLANGE_ANGLE = np.radians(30.0)
 _WHEEL_LIFT = 16.0
@@ -95,7 +95,7 @@ def plot_conicity(
     axes.set_title("Equivalent conicity")
     axes.set_xlim(0.0, 1e3 * at.max())
     axes.set_ylim(bottom=min(0.0, 1.1 * float(np.nanmin(values))) if np.any(known) else 0.0)
-    axes.grid(alpha=0.3)
+    tidy(axes)
 
 
 def plot_contact_angle(axes: Axes, geometry: ContactGeometry) -> None:
@@ -173,7 +173,7 @@ def plot_contact_points(
     axes.set_xlabel("y [mm]")
     axes.set_ylabel("z [mm]")
     axes.set_title(f"Contact points, {side} (wheel lifted, at the shifts y in mm)")
-    axes.grid(alpha=0.3)
+    tidy(axes)
 
 
 def contact_figure(
@@ -187,8 +187,7 @@ def contact_figure(
 
     geometry: rigid contact over shifts y; amplitudes [m], conicity [-]: shape (n,).
     """
-    figure = Figure(figsize=(12.0, 12.0), layout="constrained")
-    axes = figure.subplots(3, 2)
+    figure, axes = new_figure(12.0, 12.0, 3, 2)
     flange = flange_contact(geometry)
     plot_rolling_radius_difference(axes[0, 0], geometry)
     plot_conicity(axes[0, 1], amplitudes, conicity)
@@ -215,7 +214,7 @@ def _sides(geometry: ContactGeometry) -> tuple[tuple[ContactSide, str, str], ...
 def _over_shift(axes: Axes, shifts: np.ndarray) -> None:
     axes.set_xlabel("lateral shift y [mm], positive to the left")
     axes.set_xlim(shifts.min(), shifts.max())
-    axes.grid(alpha=0.3)
+    tidy(axes)
 
 
 def _shade(axes: Axes, y: np.ndarray, flange: np.ndarray) -> None:
