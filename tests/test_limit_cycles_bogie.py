@@ -68,7 +68,7 @@ def test_amplitude_and_period_against_simulation(branch, simulated, speed):
     assert followed == pytest.approx(amplitude, rel=1e-3)
     index = int(np.argmin(np.abs(branch.speed - speed) + 100.0 * ~branch.stable))
     equations = Collocation(SYSTEM, period, 1.0)
-    orbit = branch.orbit(index)
+    orbit = branch.orbits[index]
     near = type(orbit)(orbit.mesh, orbit.states, orbit.period, speed)
     exact = solve_orbit(equations, near, speed_row(near, 14)).orbit
     assert exact.half_peak_to_peak()[0] == pytest.approx(amplitude, rel=1e-3)
@@ -77,7 +77,7 @@ def test_amplitude_and_period_against_simulation(branch, simulated, speed):
 
 def test_the_orbit_closes_when_it_is_simulated(branch):
     index = int(np.argmin(np.abs(branch.speed - 72.0) + 100.0 * ~branch.stable))
-    orbit = branch.orbit(index)
+    orbit = branch.orbits[index]
     times = orbit.period * np.linspace(0.0, 1.0, 101)
     states = SYSTEM.simulate(orbit.states[0], orbit.speed, times)
     size = np.ptp(states, axis=0)
@@ -90,7 +90,7 @@ def test_the_orbit_closes_when_it_is_simulated(branch):
 def test_multipliers_against_simulated_neighbours(branch):
     """Before the flange is reached f is smooth: the monodromy matrix by differences of motions."""
     index = int(np.argmin(np.abs(branch.amplitude["q1"] - 5e-3)))
-    orbit = branch.orbit(index)
+    orbit = branch.orbits[index]
     times = np.array([0.0, orbit.period])
     columns = []
     for column in range(14):
@@ -156,7 +156,7 @@ def test_the_exudyn_model_gives_the_same_branch(branch):
 
 def test_descent_from_the_branch_is_on_it(branch):
     index = int(np.argmin(np.abs(branch.speed - 70.0) + 100.0 * ~branch.stable))
-    orbit = branch.orbit(index)
+    orbit = branch.orbits[index]
     descent = quasi_static_descent(
         SYSTEM, float(orbit.speed), float(orbit.speed) - 0.5, step=0.5, state=orbit.states[0]
     )

@@ -52,7 +52,7 @@ def branch(request):
 
 def test_every_cycle_lies_on_the_curve(branch):
     branch, twist, scale = branch
-    square = np.sum((branch.states[:, 0] / scale) ** 2, axis=1)
+    square = np.sum((branch.states / scale) ** 2, axis=1)
     # Newton stops at 1e-8 of the orbit; collocation of a circle on 30 intervals adds less.
     np.testing.assert_allclose(branch.speed, square**2 - square, atol=1e-7)
     np.testing.assert_allclose(branch.period, 2 * np.pi / (1 + twist * (square - 0.5)), rtol=1e-7)
@@ -67,7 +67,7 @@ def test_fold(branch):
     (fold,) = branch.folds
     assert fold == pytest.approx(-0.25, abs=1e-6)
     assert fold.side == "lowest"
-    square = float(np.sum((branch.states[fold.index, 0] / scale) ** 2))
+    square = float(np.sum((branch.states[fold.index] / scale) ** 2))
     assert square == pytest.approx(0.5, abs=1e-6)
     assert fold.period == pytest.approx(2 * np.pi, rel=1e-6)
     assert fold.amplitude["x"] == pytest.approx(scale * np.sqrt(0.5), rel=2e-6)
@@ -75,7 +75,7 @@ def test_fold(branch):
 
 def test_multipliers_and_stability(branch):
     branch, _, scale = branch
-    square = np.sum((branch.states[:, 0] / scale) ** 2, axis=1)
+    square = np.sum((branch.states / scale) ** 2, axis=1)
     expected = np.stack(
         [np.exp(branch.period * (2 * square - 4 * square**2)), np.exp(-DECAY * branch.period)]
     ).T
@@ -101,7 +101,7 @@ def test_from_a_simulated_state_both_ends_are_found():
     assert branch.folds[0] == pytest.approx(-0.25, abs=1e-6)
     first, last = branch.reason.split("; ")
     assert "Hopf point" in first and "upper end" in last
-    square = np.sum(branch.states[:, 0] ** 2, axis=1)
+    square = np.sum(branch.states ** 2, axis=1)
     np.testing.assert_allclose(branch.speed, square**2 - square, atol=1e-7)
 
 
@@ -112,7 +112,7 @@ def test_supercritical_branch_has_no_fold_and_starts_stable():
     assert result == pytest.approx(0.0, abs=1e-6)
     assert "supercritical" in result.how
     assert result.branch.folds == []
-    square = np.sum(result.branch.states[:, 0] ** 2, axis=1)
+    square = np.sum(result.branch.states ** 2, axis=1)
     np.testing.assert_allclose(result.branch.speed, square + square**2, atol=1e-7)
     assert np.all(result.branch.stable)
 

@@ -117,7 +117,7 @@ class Branch:
     hopf            (speed [m/s], frequency [Hz]) of the Hopf point it starts from, or None
     reason          why the branch ends; with a start inside it, both ends
     method          "continuation"
-    mesh, states    (points, N + 1), (points, N m + 1, n): the orbits themselves
+    orbits          the motions themselves
     record          system, parameters, versions, settings, cost
     """
 
@@ -131,8 +131,7 @@ class Branch:
     changes: list[StabilityChange]
     hopf: tuple[float, float] | None
     reason: str
-    mesh: Array
-    states: Array
+    orbits: list[Orbit]
     method: str = "continuation"
     record: dict[str, Any] = field(default_factory=dict)
 
@@ -141,9 +140,12 @@ class Branch:
 
     def orbit(self, index: int) -> Orbit:
         """The motion at a point of the branch."""
-        return Orbit(
-            self.mesh[index], self.states[index], float(self.period[index]), self.speed[index]
-        )
+        return self.orbits[index]
+
+    @property
+    def states(self) -> Array:
+        """First state (points, n) of each orbit: initial values that lie on it."""
+        return np.array([orbit.states[0] for orbit in self.orbits])
 
     def amplitudes_at(self, speed: float, name: str, stable: bool | None = None) -> Array:
         """Amplitudes [m or rad] of a displacement where the branch passes a speed [m/s].
@@ -215,6 +217,9 @@ class Branch:
             "changes": [[change.speed, change.kind, change.index] for change in self.changes],
         }
         arrays = {name: np.asarray(getattr(self, name)) for name in _ARRAYS}
+        arrays["intervals"] = np.array([len(orbit.mesh) - 1 for orbit in self.orbits])
+        arrays["meshes"] = np.concatenate([orbit.mesh for orbit in self.orbits])
+        arrays["motions"] = np.concatenate([orbit.states for orbit in self.orbits])
         return write_record(path, arrays, record)
 
     @classmethod
@@ -223,8 +228,14 @@ class Branch:
         arrays, record = read_record(path, KIND)
         fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
         fields["amplitude"] = NamedColumns(fields["amplitude"], record["displacements"])
+        meshes = np.split(arrays["meshes"], np.cumsum(arrays["intervals"] + 1)[:-1])
+        degree = (len(arrays["motions"]) - len(meshes)) // int(np.sum(arrays["intervals"]))
+        ends = np.cumsum(arrays["intervals"] * degree + 1)[:-1]
+        motions = np.split(arrays["motions"], ends)
+        each = zip(meshes, motions, fields["period"], fields["speed"], strict=True)
         return cls(
             **fields,
+            orbits=[Orbit(m, x, float(period), float(v)) for m, x, period, v in each],
             folds=[Fold(*entry) for entry in record["folds"]],
             changes=[StabilityChange(*entry) for entry in record["changes"]],
             hopf=tuple(record["hopf"]) if record["hopf"] else None,
@@ -303,8 +314,6 @@ _ARRAYS = (
     "stable",
     "multipliers",
     "trivial_error",
-    "mesh",
-    "states",
 )
 
 

@@ -35,7 +35,9 @@ from exudyn_wheelset.errors import AnalysisError
 class ContinuationSettings:
     """How a branch is followed.
 
-    intervals, degree   mesh intervals of an orbit and polynomial degree on each
+    intervals, degree   mesh intervals of an orbit to begin with, polynomial degree on each
+    maximum_intervals   to which the mesh is refined, by halves, while the trivial multiplier is
+    accuracy            off by more than this: rapid motion after a flange's impact needs it
     tolerance           of Newton's correction, relative to the size of the orbit
     roughness           correction at which an orbit is taken if it falls no further (f jumps)
     first_amplitude     of the first orbit off a Hopf point, in units of the state's scale
@@ -52,9 +54,11 @@ class ContinuationSettings:
 
     intervals: int = INTERVALS
     degree: int = DEGREE
+    maximum_intervals: int = 120
+    accuracy: float = 0.02
     tolerance: float = 1e-8
     roughness: float = 1e-3
-    first_amplitude: float = 0.05
+    first_amplitude: float = 0.2
     growth: float = 0.3
     speed_steps: int = 25
     smallest_step: float = 1e-4
@@ -276,10 +280,19 @@ class _Follower:
         if reason:
             return reason
         effort = found.iterations + 3 * found.refreshed
-        self.step *= 1.5 if effort <= 8 else 1.0 if effort <= 13 else 0.7
-        if len(self.points) % settings.adapt_every == 0:
-            self._adapt()
+        self.step *= 1.5 if effort <= 10 else 1.0 if effort <= 15 else 0.7
+        intervals = self._intervals_wanted(self.points[-1].trivial_error)
+        if len(self.points) % settings.adapt_every == 0 or intervals > len(orbit.mesh) - 1:
+            self._adapt(intervals)
         return ""
+
+    def _intervals_wanted(self, error: float) -> int:
+        settings, count = self.settings, len(self.base.orbit.mesh) - 1
+        if error > settings.accuracy:
+            return max(count, min(count + count // 2, settings.maximum_intervals))
+        if error < 0.02 * settings.accuracy:
+            return max(settings.intervals, count - count // 4)
+        return count
 
     def _largest_step(self) -> float:
         """Arclength in which the orbit changes by `growth` or the speed by a step of the range."""
@@ -320,7 +333,7 @@ class _Follower:
         weights = [below, above]
         goal = settings.fold_tolerance * max(1.0, abs(left.orbit.speed))
         last_side = 0
-        quiet, previous = 0, np.inf
+        quiet, last_speed, last_slope = 0, np.inf, np.inf
         for _ in range(20):
             where = (lower * weights[1] - upper * weights[0]) / (weights[1] - weights[0])
             guess = equations.moved(left.orbit, left.tangent, where)
@@ -336,8 +349,9 @@ class _Follower:
                 break
             best, slope = start, start.tangent.speed
             # Where f has corners the slope jumps about zero, but the speed settles all the same.
-            quiet = quiet + 1 if abs(best.orbit.speed - previous) < goal else 0
-            previous = best.orbit.speed
+            slow = abs(slope) > 0.2 * abs(last_slope)
+            quiet = quiet + 1 if slow and abs(best.orbit.speed - last_speed) < goal else 0
+            last_speed, last_slope = best.orbit.speed, slope
             if abs(slope) < 1e-6 * (abs(below) + abs(above)) or quiet > 1:
                 break
             if slope * below > 0.0:
@@ -352,10 +366,10 @@ class _Follower:
                 break
         self._keep(self._point(best, is_fold=True))
 
-    def _adapt(self) -> None:
+    def _adapt(self, intervals: int) -> None:
         """Move the base to a mesh that spreads the error, with its Jacobians interpolated."""
         equations, base = self.equations, self.base
-        mesh = balanced_mesh(base.orbit, equations.scales)
+        mesh = balanced_mesh(base.orbit, equations.scales, intervals)
         orbit = base.orbit.on_mesh(mesh)
         ahead = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
         tangent = _unit(equations, mesh, equations.difference(ahead, orbit))

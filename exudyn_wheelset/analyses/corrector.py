@@ -81,7 +81,8 @@ def solve_orbit(
             best, best_orbit = length, orbit
         if not fresh and length > contraction * previous:
             # Rounding of f sets a floor to the corrections.
-            if refreshed >= refreshes or (refreshed and length < 1e3 * tolerance):
+            floor = (1e3 if refreshed else 1e2) * tolerance
+            if refreshed >= refreshes or length < floor:
                 break
             condensed = equations.condense(orbit)
             refreshed += 1

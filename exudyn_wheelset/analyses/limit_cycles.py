@@ -136,8 +136,7 @@ def gather(
         changes=_stability_changes(points, settings.stability_margin),
         hopf=hopf,
         reason=reason,
-        mesh=np.array([point.orbit.mesh for point in points]),
-        states=np.array([point.orbit.states for point in points]),
+        orbits=[point.orbit for point in points],
         record=record,
     )
 

@@ -130,8 +130,10 @@ def orbit_from_samples(
     return Orbit(np.linspace(0.0, 1.0, intervals + 1), states, float(period), float(speed))
 
 
-def balanced_mesh(orbit: Orbit, scales: Array, weight: float = 0.8) -> Array:
-    """Mesh (N + 1,) on which each interval carries an equal share of the local error.
+def balanced_mesh(
+    orbit: Orbit, scales: Array, intervals: int | None = None, weight: float = 0.8
+) -> Array:
+    """Mesh on which each interval, of as many or of `intervals`, has an equal share of the error.
 
     The error density is |d^(m+1)x/ds^(m+1)|^(1/(m+1)), its derivative taken from the jumps of the
     piecewise constant m-th one. The share 1 - `weight` is spread evenly: corners of f (a flange
@@ -148,10 +150,11 @@ def balanced_mesh(orbit: Orbit, scales: Array, weight: float = 0.8) -> Array:
     density = 0.25 * np.roll(density, 1) + 0.5 * density + 0.25 * np.roll(density, -1)
     total = float(np.sum(density * widths))
     if not np.isfinite(total) or total <= 0.0:
-        return mesh
+        density, total = np.ones(len(widths)), 1.0
     share = np.concatenate([[0.0], np.cumsum(density * widths / total)])
     share = weight * share + (1.0 - weight) * mesh
-    balanced = np.interp(np.linspace(0.0, 1.0, len(mesh)), share / share[-1], mesh)
+    wanted = np.linspace(0.0, 1.0, (intervals or len(widths)) + 1)
+    balanced = np.interp(wanted, share / share[-1], mesh)
     balanced[0], balanced[-1] = 0.0, 1.0
     return balanced
 
