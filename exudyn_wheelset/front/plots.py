@@ -216,6 +216,7 @@ def draw_wheelset_motion(
     """
     t = motion["t"]
     lateral, yaw, normal, creep, place = axes
+    corner = "upper left" if np.argmax(np.abs(motion["y"])) > len(t) // 2 else "upper right"
     lateral.plot(t, motion["y"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
     if growth_rate is not None:
         centre = motion.get("y_equilibrium", np.zeros(1))[0]
@@ -231,7 +232,7 @@ def draw_wheelset_motion(
                 linestyle="--",
                 label="growth of the eigenvalue" if sign > 0.0 else None,
             )
-        lateral.legend(fontsize=8, frameon=False, loc="upper right")
+        lateral.legend(fontsize=8, frameon=False, loc=corner)
     lateral.set_ylabel("y [mm]")
     yaw.plot(t, motion["yaw"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
     yaw.set_ylabel("yaw [mrad]")
@@ -254,4 +255,4 @@ def draw_wheelset_motion(
     place.set_ylabel("contact on wheel [mm]")
     place.set_xlabel("time [s]")
     for panel in (normal, creep, place):
-        panel.legend(fontsize=7, frameon=False, ncols=2, loc="upper right")
+        panel.legend(fontsize=7, frameon=False, ncols=2, loc=corner)

@@ -1,0 +1,163 @@
+"""Time simulation with a progress bar, derailment as an ending and Ctrl-C that keeps the results.
+
+Exudyn's solver runs a model; between its steps this module looks at the contacts and at the
+keyboard. Growth rate and frequency of what was simulated come from a fit that knows nothing of
+eigenvalues: the decaying or growing sinusoid nearest to the motion.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from scipy.optimize import least_squares
+from tqdm import tqdm
+
+from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
+from exudyn_wheelset.errors import AnalysisError, ContactError
+
+# Contacts are looked at this often [s]: a derailing wheel needs some 20 ms over the flange.
+CHECK_INTERVAL = 2.0e-3
+
+
+@dataclass(frozen=True)
+class Ending:
+    """How a simulation ended.
+
+    time [s]: simulated; event: None at the planned end, else what ended the run before;
+    interrupted: by Ctrl-C.
+    """
+
+    time: float
+    event: str | None = None
+    interrupted: bool = False
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Growth rate [1/s], frequency [Hz] and what remains of the motion beside it, relative."""
+
+    rate: float
+    frequency: float
+    residual: float
+
+
+def set_duration(settings: exu.SimulationSettings, duration: float) -> None:
+    """Let a simulation last `duration` [s] with the settings' own time step."""
+    integration = settings.timeIntegration
+    step = (integration.endTime - integration.startTime) / integration.numberOfSteps
+    integration.endTime = integration.startTime + duration
+    integration.numberOfSteps = max(1, round(duration / step))
+
+
+def simulate(
+    mbs: Any,
+    settings: exu.SimulationSettings,
+    contacts: Iterable[WheelRailContact] = (),
+    progress: bool = False,
+    description: str = "simulating",
+) -> Ending:
+    """Run the assembled model `mbs` from its initial values; what its sensors stored stays there.
+
+    The run ends before its time where one of `contacts` finds its wheelset derailed, where the
+    solver gives up, or by Ctrl-C (in the main thread); the ending says which.
+    """
+    integration = settings.timeIntegration
+    start, end = integration.startTime, integration.endTime
+    watched = list(contacts)
+    event: list[str] = []
+    stopped = threading.Event()
+    bar = tqdm(
+        total=round(end - start, 9),
+        disable=not progress,
+        desc=description,
+        unit="s",
+        bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
+    )
+    next_look = start
+
+    def between_steps(mbs: Any, t: float) -> bool:
+        nonlocal next_look
+        if t < next_look:
+            return True
+        next_look = t + CHECK_INTERVAL
+        bar.update(max(0.0, min(t, end) - start - bar.n))
+        if stopped.is_set():
+            return False
+        try:
+            for contact in watched:
+                contact.check(mbs)
+        except ContactError as error:
+            event.append(f"at {t:.3f} s: {error}")
+            return False
+        return True
+
+    mbs.SetPreStepUserFunction(between_steps)
+    config: Any = exu.config
+    kept = (config.suppressWarnings, config.printToConsole)
+    handler = None
+    if threading.current_thread() is threading.main_thread():
+        handler = signal.signal(signal.SIGINT, lambda *_: stopped.set())
+    try:
+        with bar:
+            config.suppressWarnings, config.printToConsole = True, False
+            try:
+                done = mbs.SolveDynamic(
+                    settings, solverType=integration.solverType, showHints=False
+                )
+                if not done:
+                    event.append("the solver did not converge")
+            except Exception as error:
+                lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+                event.append(" ".join(lines[:2]) or type(error).__name__)
+            if not event and not stopped.is_set():
+                bar.update(end - start - bar.n)
+    finally:
+        config.suppressWarnings, config.printToConsole = kept
+        mbs.SetPreStepUserFunction(0)
+        if handler is not None:
+            signal.signal(signal.SIGINT, handler)
+    reached = float(mbs.systemData.GetTime()) - start
+    if stopped.is_set() and not event:
+        event.append(f"interrupted at {reached:.3f} s")
+    return Ending(reached, event[0] if event else None, stopped.is_set())
+
+
+def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
+    """Growth rate and frequency of the sinusoid in y(t), samples at equal times [s].
+
+    Least squares of exp(rate t) (A cos + B sin) + C; the start comes from the crossings of the
+    mean. Raises AnalysisError for fewer than two periods.
+    """
+    t = np.asarray(t, dtype=float)
+    y = np.asarray(y, dtype=float)
+    centred = y - y.mean()
+    crossings = np.flatnonzero(np.diff(np.signbit(centred)))
+    if len(t) < 20 or len(crossings) < 4:
+        raise AnalysisError(
+            f"{len(crossings)} zero crossings in {t[-1] - t[0] if len(t) else 0.0:.3g} s: "
+            "a growth rate needs two periods of oscillation; simulate longer"
+        )
+    between = t[crossings[-1]] - t[crossings[0]]
+    first = np.pi * (len(crossings) - 1) / between
+    origin = t - t[0]
+
+    def rest(x: np.ndarray) -> np.ndarray:
+        swell = np.exp(x[0] * origin)
+        basis = np.column_stack(
+            [swell * np.cos(x[1] * origin), swell * np.sin(x[1] * origin), np.ones_like(origin)]
+        )
+        return y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]
+
+    found = least_squares(rest, [0.0, first], x_scale=[0.1 * first, 0.1 * first])
+    size = np.sqrt(np.mean(centred**2))
+    return Growth(
+        rate=float(found.x[0]),
+        frequency=float(abs(found.x[1])) / (2.0 * np.pi),
+        residual=float(np.sqrt(np.mean(found.fun**2)) / size),
+    )
