@@ -17,8 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
@@ -155,7 +157,7 @@ def contact_forces(
     _, y, z, roll, _, yaw = pose
     axle = (-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll))
     result = kernel.new_result()
-    kernel.wheelset_forces(
+    wheelset_forces(
         contact_tables(wheelset, track), y, z, *axle, *velocity, motion, parameters, result
     )
     return read_result(result)
@@ -167,7 +169,7 @@ def read_result(result: np.ndarray) -> ContactForces:
     for hand in range(2):
         patches = []
         for k in range(int(result[kernel.COUNT_LEFT + hand])):
-            start = kernel.PATCHES + (hand * kernel.MOST_LOBES + k) * kernel.PATCH_WIDTH
+            start = kernel.PATCHES + (hand * MOST_LOBES + k) * kernel.PATCH_WIDTH
             row = [float(value) for value in result[start : start + kernel.PATCH_WIDTH]]
             patches.append(
                 Patch(

@@ -17,8 +17,9 @@ from exudyn.utilities import (
     SensorUserFunction,
 )
 
-from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
@@ -191,10 +192,8 @@ def _sensor(contact: WheelRailContact, hand: int) -> Any:
     def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
         result = contact.evaluate(mbs, configuration)
         count = int(result[kernel.COUNT_LEFT + hand])
-        start = kernel.PATCHES + hand * kernel.MOST_LOBES * kernel.PATCH_WIDTH
-        rows = result[start : start + count * kernel.PATCH_WIDTH].reshape(
-            count, kernel.PATCH_WIDTH
-        )
+        start = kernel.PATCHES + hand * MOST_LOBES * kernel.PATCH_WIDTH
+        rows = result[start : start + count * kernel.PATCH_WIDTH].reshape(count, kernel.PATCH_WIDTH)
         force = rows[:, kernel.PATCH_NORMAL_FORCE]
         total = float(force.sum())
         weights = force / total if total > 0.0 else force

@@ -25,9 +25,10 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from exudyn_wheelset.contact import forces as kernel
+from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.tables import RADIUS, contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
 from exudyn_wheelset.errors import ContactError
 
@@ -69,10 +70,10 @@ def body_wrench(q, v, first, reference, table, parameters, rail_motion, memory, 
         ux = ty * wz - tz * wy
         uy = tz * wx - tx * wz
         uz = tx * wy - ty * wx
-        kernel.wheelset_forces(
+        wheelset_forces(
             table,
             reference[1] + q[first + 1],
-            reference[2] + q[first + 2] - table[kernel.RADIUS],
+            reference[2] + q[first + 2] - table[RADIUS],
             lx, ly, lz,
             v[first], v[first + 1], v[first + 2],
             wx + s * ux + c * (ty * uz - tz * uy),
