@@ -39,9 +39,9 @@ DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
 SEARCHED_SPEEDS = (10.0, 300.0)
 FACTORS = (0.85, 1.15)
 OFFSET = 1.0e-3
-# A growth rate is measured once the fast creep modes have died away [s], and up to the amplitude
-# at which creep saturation starts to show, as a multiple of the offset.
-SETTLED, LARGEST_GROWTH = 0.5, 2.0
+# A growth rate is measured after the first period, in which the fast creep modes die away, and up
+# to this multiple of the offset and this amplitude [m]: beyond, creep saturation starts to show.
+LARGEST_GROWTH, LARGEST_AMPLITUDE = 2.0, 3.0e-3
 
 
 @dataclass(frozen=True)
@@ -89,14 +89,12 @@ def vehicle(
 def hunting_root(system: ExudynSystem, speed: float) -> complex:
     """The least damped root whose mode is lateral (y, yaw, roll), not longitudinal or vertical."""
     linear = linearise(system, speed)
-    lateral = [
-        index
-        for index, name in enumerate(system.state_names)
-        if any(word in name for word in ("y [m]", "yaw", "roll"))
-    ]
-    sizes = np.abs(linear.eigenvectors / system.scales[:, None])
-    share = (sizes[lateral] ** 2).sum(axis=0) / (sizes**2).sum(axis=0)
-    chosen = (linear.eigenvalues.imag > 1.0e-3) & (share > 0.1)
+    shown = list(system.displacement_indices)
+    sizes = np.abs(linear.eigenvectors / system.scales[:, None])[shown] ** 2
+    words = ("y [m]", "yaw", "roll")
+    lateral = [any(word in system.state_names[index] for word in words) for index in shown]
+    share = sizes[lateral].sum(axis=0) / sizes.sum(axis=0)
+    chosen = (linear.eigenvalues.imag > 1.0e-3) & (share > 0.5)
     if not chosen.any():
         raise AnalysisError(f"{system.name}: no lateral oscillation at {speed:g} m/s")
     return complex(linear.eigenvalues[chosen][0])
@@ -148,7 +146,7 @@ def release(
         "simulated_time": ending.time,
         "event": ending.event,
     }
-    chosen = _linear_part(columns["t"], y - centre, offset)
+    chosen = _linear_part(columns["t"], y - centre, offset, root)
     try:
         growth = measure_growth(columns["t"][chosen], y[chosen])
         numbers["growth_rate_simulated"] = growth.rate
@@ -250,11 +248,15 @@ def _lateral(system: ExudynSystem) -> int:
     return list(system.state_names).index("y [m]")
 
 
-def _linear_part(t: np.ndarray, y: np.ndarray, offset: float) -> np.ndarray:
-    """True after settling and before the motion grows out of the linear range."""
-    large = np.flatnonzero(np.abs(y) > LARGEST_GROWTH * abs(offset))
-    end = t[large[0]] if len(large) else np.inf
-    return (t >= SETTLED) & (t < end)
+def _linear_part(t: np.ndarray, y: np.ndarray, offset: float, root: complex) -> np.ndarray:
+    """True in the longer of the stretches before and after the motion is too large to be linear."""
+    settled = t >= 2.0 * np.pi / root.imag
+    large = np.flatnonzero(np.abs(y) > min(LARGEST_GROWTH * abs(offset), LARGEST_AMPLITUDE))
+    if not len(large):
+        return settled
+    before = settled & (t < t[large[0]])
+    after = settled & (t > t[large[-1]])
+    return before if before.sum() >= after.sum() else after
 
 
 def _final_amplitude(t: np.ndarray, y: np.ndarray, root: complex) -> float:

@@ -136,12 +136,12 @@ def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
     """
     t = np.asarray(t, dtype=float)
     y = np.asarray(y, dtype=float)
-    centred = y - y.mean()
+    centred = y - y.mean() if len(y) else y
     crossings = np.flatnonzero(np.diff(np.signbit(centred)))
     if len(t) < 20 or len(crossings) < 4:
         raise AnalysisError(
-            f"{len(crossings)} zero crossings in {t[-1] - t[0] if len(t) else 0.0:.3g} s: "
-            "a growth rate needs two periods of oscillation; simulate longer"
+            f"{len(crossings)} zero crossings in {len(t)} samples of linear motion: a growth rate "
+            "needs two periods of oscillation; release from a smaller offset, or simulate longer"
         )
     between = t[crossings[-1]] - t[crossings[0]]
     first = np.pi * (len(crossings) - 1) / between
