@@ -64,7 +64,9 @@ def test_one_patch_in_place_size_and_creepage(benchmark_forces, row, normal):
     assert patch.rail_y == pytest.approx(row["rail_y_m"], abs=3e-4)
     assert patch.angle == pytest.approx(row["contact_angle_rad"], abs=0.01)
     assert patch.radius == pytest.approx(row["rolling_radius_m"], abs=1e-4)
-    assert patch.normal_force == pytest.approx(row["normal_force_N"], rel=0.03)
+    # Virtual penetration with its one factor of 0.55 is 4.9 % above Hertz for a round patch.
+    bound = 0.03 if normal == "hertz" else 0.055
+    assert patch.normal_force == pytest.approx(row["normal_force_N"], rel=bound)
 
     def near(value):
         return pytest.approx(value, abs=2e-5 + 0.03 * abs(value))

@@ -194,7 +194,7 @@ def walk(centre, step, quantity, half_width=1.25e-4, depth=1e-4, **options):
     roll, height = rigid.roll[0], rigid.z[0] - depth
     spin = 20.0 / 0.46
     velocity = (20.0, 0.0, 0.0, 0.0, spin * math.cos(roll), spin * math.sin(roll))
-    count = int(round(2.0 * half_width / step)) + 1
+    count = round(2.0 * half_width / step) + 1
     shifts = centre + np.linspace(-half_width, half_width, count)
     rows = [
         quantity(contact_forces(*case, (0.0, y, height, roll, 0.0, 0.0), velocity, **options))
