@@ -137,6 +137,7 @@ def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
     t = np.asarray(t, dtype=float)
     y = np.asarray(y, dtype=float)
     centred = y - y.mean() if len(y) else y
+    size = float(np.sqrt(np.mean(centred**2))) if len(y) else 0.0
     crossings = np.flatnonzero(np.diff(np.signbit(centred)))
     if len(t) < 20 or len(crossings) < 4:
         raise AnalysisError(
@@ -146,18 +147,19 @@ def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
     between = t[crossings[-1]] - t[crossings[0]]
     first = np.pi * (len(crossings) - 1) / between
     origin = t - t[0]
+    # The fit stops by absolute measures: a motion of micrometres must not look solved.
+    scaled = centred / size
 
     def rest(x: np.ndarray) -> np.ndarray:
         swell = np.exp(x[0] * origin)
         basis = np.column_stack(
             [swell * np.cos(x[1] * origin), swell * np.sin(x[1] * origin), np.ones_like(origin)]
         )
-        return y - basis @ np.linalg.lstsq(basis, y, rcond=None)[0]
+        return scaled - basis @ np.linalg.lstsq(basis, scaled, rcond=None)[0]
 
     found = least_squares(rest, [0.0, first], x_scale=[0.1 * first, 0.1 * first])
-    size = np.sqrt(np.mean(centred**2))
     return Growth(
         rate=float(found.x[0]),
         frequency=float(abs(found.x[1])) / (2.0 * np.pi),
-        residual=float(np.sqrt(np.mean(found.fun**2)) / size),
+        residual=float(np.sqrt(np.mean(found.fun**2))),
     )

@@ -1,0 +1,401 @@
+"""A truck (bogie): two wheelsets and a frame, on springs under a car body that runs straight at V.
+
+The frame is a rigid body with six degrees of freedom. Springs and dampers join it to the axle
+boxes (primary) and to the car body (secondary, and in yaw); they act along the axes of the track
+frame, at the height of the axles (primary) and of the secondary springs, the yaw springs at the
+frame's centre. The model stands in the frame that moves at V, so a car body that runs straight is
+Exudyn's ground; a body that moves may be given in its place.
+
+The vertical springs carry the static load from the start: they are preloaded by it. Its points of
+application move with the frame, so the load of the car above the frame's centre tips the frame a
+little, as in the real truck.
+
+    y, z      left wheel     o======o  frame      half_wheelbase b ahead of and behind the centre
+              axle box       |  o   |             axle_drop h1 of the axles below the centre
+                             o======o             secondary_rise h2 of the secondary springs above
+
+`dtu_truck` is a truck of the DTU passenger car, whose masses, stiffnesses and dimensions are those
+of Kaas-Petersen's bogie (C. Kaas-Petersen, Acta Mechanica 61 (1986) 89-107).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+from exudyn import graphics
+from exudyn.utilities import (
+    MarkerBodyRigid,
+    ObjectConnectorCartesianSpringDamper,
+    RigidBodyInertia,
+)
+from scipy.optimize import brentq
+
+from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.rigid import contact_geometry
+from exudyn_wheelset.contact.wheelset_contact import contact_forces
+from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
+from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
+from exudyn_wheelset.vehicles.wheelset_on_frame import GRAVITY, Suspension
+
+
+@dataclass(frozen=True)
+class TruckItems:
+    """Item numbers of a truck in an Exudyn system.
+
+    node, body: the frame; wheelsets: leading first; primary: connectors of the axle boxes, by
+    wheelset, left before right; secondary: left, right; yaw: left, right.
+    """
+
+    node: int
+    body: int
+    wheelsets: tuple[WheelsetItems, ...]
+    primary: tuple[int, ...]
+    secondary: tuple[int, ...]
+    yaw: tuple[int, ...]
+
+    @property
+    def contacts(self) -> tuple[WheelRailContact, ...]:
+        """Contacts of the wheelsets, leading first."""
+        return tuple(items.contact for items in self.wheelsets)
+
+
+@dataclass(frozen=True)
+class Truck:
+    """A two-axle truck, ready to be built at any speed.
+
+    wheelset: both of them; frame_mass [kg], frame_inertia (Ix, Iy, Iz) [kg m^2] about its centre;
+    half_wheelbase b, axle_drop h1, secondary_rise h2 [m]; primary: one axle box, half_distance
+    from the centre line; secondary: one side, with the dampers beside the springs; yaw: springs
+    and dampers of one side at the height of the frame's centre; car_load [N]: weight that rests on
+    the secondary springs; contact: keyword arguments of `contact_parameters`; driven: the spins
+    are held at V/radius.
+    Raises WheelsetError for impossible values.
+    """
+
+    wheelset: Wheelset
+    track: Track
+    frame_mass: float
+    frame_inertia: tuple[float, float, float]
+    half_wheelbase: float
+    primary: Suspension
+    secondary: Suspension
+    car_load: float
+    yaw: Suspension | None = None
+    axle_drop: float = 0.0
+    secondary_rise: float = 0.0
+    contact: dict[str, Any] = field(default_factory=dict)
+    driven: bool = False
+    name: str = "truck"
+
+    def __post_init__(self) -> None:
+        positive = {
+            "frame_mass [kg]": self.frame_mass,
+            "half_wheelbase [m]": self.half_wheelbase,
+            "car_load [N]": self.car_load,
+            **{
+                f"frame_inertia I{axis} [kg m^2]": value
+                for axis, value in zip("xyz", self.frame_inertia, strict=True)
+            },
+        }
+        for what, value in positive.items():
+            if not np.isfinite(value) or value <= 0.0:
+                raise WheelsetError(f"{self.name}: {what} = {value!r}: give a positive number")
+        for what, value in (
+            ("half_wheelbase", self.half_wheelbase),
+            ("axle_drop", abs(self.axle_drop)),
+            ("secondary_rise", abs(self.secondary_rise)),
+        ):
+            if not value < 10.0:
+                raise WheelsetError(f"{self.name}: {what} = {value!r} m: give metres, below 10 m")
+        for what, suspension in (("primary", self.primary), ("secondary", self.secondary)):
+            if suspension.stiffness[2] <= 0.0:
+                raise WheelsetError(
+                    f"{self.name}: the {what} suspension carries the load: give it a vertical "
+                    "stiffness above 0 N/m"
+                )
+
+    @property
+    def weight(self) -> float:
+        """What all wheels together carry [N]."""
+        own = self.frame_mass + 2.0 * self.wheelset.mass
+        return self.car_load + own * GRAVITY
+
+    @property
+    def axle_load(self) -> float:
+        """What the two wheels of one wheelset carry [N]."""
+        return 0.5 * self.weight
+
+    def create(
+        self,
+        mbs: Any,
+        speed: float,
+        *,
+        position: Sequence[float] = (0.0, 0.0),
+        car_body: int | None = None,
+        car_centre: Sequence[float] = (0.0, 0.0, 0.0),
+        show: bool = True,
+        name: str = "truck",
+        **options: Any,
+    ) -> TruckItems:
+        """Add the truck to `mbs`, in the frame that moves at `speed` [m/s]; return its items.
+
+        position (x, y) [m] of the frame's centre; car_body: a rigid body with its reference
+        position car_centre (x, y, z) [m] that stands on the secondary springs in place of the
+        ground; options: of `create_wheelset` (irregularity, sensors, lateral_offset, ...), for
+        both wheelsets.
+        """
+        x, y = position
+        height = self.rest_height()
+        wheelsets = tuple(
+            create_wheelset(
+                mbs,
+                self.wheelset,
+                self.track,
+                position=(x + ahead, y),
+                speed=speed,
+                moving_frame=True,
+                height=height,
+                gravity=GRAVITY,
+                show=show,
+                name=f"{name} {which} wheelset",
+                **{"damping": 0.0, **self.contact, **options},
+            )
+            for which, ahead in (
+                ("leading", self.half_wheelbase),
+                ("trailing", -self.half_wheelbase),
+            )
+        )
+        centre = np.array([x, y, self.wheelset.radius + height + self.axle_drop])
+        frame = mbs.CreateRigidBody(
+            name=f"{name} frame",
+            inertia=RigidBodyInertia(
+                mass=self.frame_mass, inertiaTensor=np.diag(self.frame_inertia)
+            ),
+            nodeType=exu.NodeType.RotationRotationVector,
+            referencePosition=centre.tolist(),
+            gravity=[0.0, 0.0, -GRAVITY],
+            graphicsDataList=self.frame_graphics() if show else [],
+            returnDict=True,
+        )
+        body = frame["bodyNumber"]
+        above = mbs.CreateGround() if car_body is None else car_body
+        origin = np.zeros(3) if car_body is None else np.asarray(car_centre, dtype=float)
+
+        box_load = (self.frame_mass * GRAVITY + self.car_load) / 4.0
+        primary = tuple(
+            _connect(
+                mbs,
+                (items.body, [0.0, side, 0.0]),
+                (body, [ahead, side, -self.axle_drop]),
+                self.primary,
+                box_load,
+            )
+            for items, ahead in zip(
+                wheelsets, (self.half_wheelbase, -self.half_wheelbase), strict=True
+            )
+            for side in (self.primary.half_distance, -self.primary.half_distance)
+        )
+
+        def below_car(suspension: Suspension, rise: float, load: float) -> tuple[int, ...]:
+            connectors = []
+            for side in (suspension.half_distance, -suspension.half_distance):
+                place = np.array([0.0, side, rise])
+                on_car = (centre + place - origin).tolist()
+                connectors.append(
+                    _connect(mbs, (body, place.tolist()), (above, on_car), suspension, load)
+                )
+            return tuple(connectors)
+
+        secondary = below_car(self.secondary, self.secondary_rise, 0.5 * self.car_load)
+        yaw = () if self.yaw is None else below_car(self.yaw, 0.0, 0.0)
+        if self.driven:
+            for items in wheelsets:
+                create_spin_drive(mbs, items, self.wheelset.radius)
+        return TruckItems(frame["nodeNumber"], body, wheelsets, primary, secondary, yaw)
+
+    def rest_height(self) -> float:
+        """Height [m] of the axles above `radius` over the rail tops where the rails carry the load.
+
+        The springs are without force beyond their preload only there.
+        """
+        radius = self.wheelset.radius
+        touching = float(contact_geometry(self.wheelset, self.track, [0.0]).z[0])
+        options = {name: value for name, value in self.contact.items() if name != "damping"}
+
+        def excess(penetration: float) -> float:
+            pose = (0.0, 0.0, touching - penetration, 0.0, 0.0, 0.0)
+            rolling = (10.0, 0.0, 0.0, 0.0, 10.0 / radius, 0.0)
+            found = contact_forces(self.wheelset, self.track, pose, rolling, **options)
+            return float(found.force[2]) - self.axle_load
+
+        highest = 1.0e-4
+        while excess(highest) < 0.0:
+            highest *= 2.0
+            if highest > 0.01:
+                raise WheelsetError(
+                    f"{self.name}: the rails do not carry {self.axle_load:.0f} N of one wheelset: "
+                    "check car_load, masses and shear_modulus"
+                )
+        return touching - float(brentq(excess, 0.0, highest, xtol=1e-13))
+
+    def build(self, speed: float, **options: Any) -> tuple[Any, Any, TruckItems]:
+        """Return (SC, mbs, items) of a new, not yet assembled Exudyn system with this truck."""
+        container = exu.SystemContainer()
+        mbs = container.AddSystem()
+        return container, mbs, self.create(mbs, speed, **options)
+
+    def dynamic_system(self, **options: Any) -> ExudynSystem:
+        """The model as a system for all analyses; options are those of ExudynSystem."""
+        container, mbs, items = self.build(20.0, sensors=False, show=False)
+        rolling = self.wheelset.radius
+        if not self.driven:
+            rolling = contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0]
+
+        def set_speed(_: Any, speed: float) -> None:
+            for contact in items.contacts:
+                contact.set_speed(speed)
+
+        return ExudynSystem(
+            mbs,
+            container,
+            set_speed=set_speed,
+            spinning_nodes={one.node: float(rolling) for one in items.wheelsets},
+            name=self.name,
+            parameters=self.parameters(),
+            **options,
+        )
+
+    def parameters(self) -> dict[str, Any]:
+        """All numbers and names behind the model, for records."""
+        wheelset, track = self.wheelset, self.track
+        return {
+            "wheelset_mass": wheelset.mass,
+            "wheelset_inertia": list(wheelset.inertia),
+            "radius": wheelset.radius,
+            "wheel": wheelset.wheel.name,
+            "tape_half_distance": wheelset.tape_half_distance,
+            "rail": track.rail.name,
+            "gauge": track.gauge,
+            "inclination": track.inclination,
+            "frame_mass": self.frame_mass,
+            "frame_inertia": list(self.frame_inertia),
+            "half_wheelbase": self.half_wheelbase,
+            "axle_drop": self.axle_drop,
+            "secondary_rise": self.secondary_rise,
+            "primary": asdict(self.primary),
+            "secondary": asdict(self.secondary),
+            "yaw": None if self.yaw is None else asdict(self.yaw),
+            "car_load": self.car_load,
+            "contact": dict(self.contact),
+            "driven": self.driven,
+        }
+
+    def frame_graphics(self) -> list[dict]:
+        """Side beams, cross beam and secondary springs for Exudyn's renderer; no true shape."""
+        colour = [0.24, 0.42, 0.36, 1.0]
+        side, low = 1.0, 0.10
+        items = []
+        for sign in (1.0, -1.0):
+            beam = [0.9 * self.half_wheelbase, sign * side, low]
+            items.append(
+                graphics.Brick(
+                    centerPoint=[0.0, sign * side, low],
+                    size=[2.0 * beam[0], 0.14, 0.16],
+                    color=colour,
+                )
+            )
+            items += [
+                graphics.Brick(
+                    centerPoint=[end * self.half_wheelbase, sign * side, -self.axle_drop],
+                    size=[0.26, 0.20, 0.24],
+                    color=[0.30, 0.32, 0.34, 1.0],
+                )
+                for end in (1.0, -1.0)
+            ]
+            items += [
+                graphics.Brick(
+                    centerPoint=[end * self.half_wheelbase, sign * side, low + 0.04],
+                    size=[0.34, 0.14, 0.10],
+                    color=colour,
+                )
+                for end in (1.0, -1.0)
+            ]
+            items.append(
+                graphics.Cylinder(
+                    pAxis=[0.0, sign * side, low + 0.08],
+                    vAxis=[0.0, 0.0, 0.30],
+                    radius=0.17,
+                    color=[0.12, 0.12, 0.13, 1.0],
+                    nTiles=32,
+                )
+            )
+        for ahead in (0.22, -0.22):
+            items.append(
+                graphics.Brick(
+                    centerPoint=[ahead, 0.0, low],
+                    size=[0.14, 2.0 * side, 0.14],
+                    color=colour,
+                )
+            )
+        return items
+
+
+def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truck:
+    """A truck of the DTU passenger car with half the car's weight on it.
+
+    The source computes the shear modulus with a slip of sign (1.438e11 Pa); here it is
+    E/(2 (1 + nu)) = 8.27e10 Pa. contact: changes to the arguments of `contact_parameters`.
+    """
+    return Truck(
+        wheelset=Wheelset(mass=1022.0, inertia=(678.0, 80.0, 678.0), radius=0.425, wheel=wheel),
+        track=Track(rail, gauge=1.435, inclination=1.0 / 40.0),
+        frame_mass=2918.9,
+        frame_inertia=(6780.0, 6780.0, 6780.0),
+        half_wheelbase=1.074,
+        axle_drop=0.0762,
+        secondary_rise=0.6584,
+        primary=Suspension(0.620, stiffness=(3.646e6, 1.823e6, 3.646e6)),
+        secondary=Suspension(
+            0.680, stiffness=(0.0, 182.3e3, 333.3e3), damping=(0.0, 29.2e3, 20.0e3)
+        ),
+        yaw=Suspension(1.5, stiffness=(903350.0, 0.0, 0.0), damping=(166669.0, 0.0, 0.0)),
+        car_load=0.5 * 44388.0 * GRAVITY,
+        contact={
+            "creep": "shen-hedrick-elkins",
+            "friction": 0.15,
+            "shear_modulus": 2.1e11 / (2.0 * 1.27),
+            "poisson": 0.27,
+            **contact,
+        },
+        name="truck of the DTU car",
+    )
+
+
+def _connect(
+    mbs: Any,
+    lower: tuple[int, list[float]],
+    upper: tuple[int, list[float]],
+    suspension: Suspension,
+    load: float,
+) -> int:
+    """Springs and dampers that carry `load` [N] of the upper body on the lower one at rest."""
+    markers = [
+        mbs.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
+        for body, place in (lower, upper)
+    ]
+    vertical = suspension.stiffness[2]
+    return mbs.AddObject(
+        ObjectConnectorCartesianSpringDamper(
+            markerNumbers=markers,
+            stiffness=list(suspension.stiffness),
+            damping=list(suspension.damping),
+            offset=[0.0, 0.0, load / vertical if vertical > 0.0 else 0.0],
+        )
+    )
