@@ -32,7 +32,7 @@ from exudyn_wheelset.errors import WheelsetError
 # from place to place with a small jump of the force; a finer difference would make a large slope
 # of it and throw Newton off. A smooth f loses 1e-3 of its slope by it, with opposite signs in the
 # two halves of a symmetric orbit. Defects are exact, so orbits and folds do not move.
-FORWARD_STEP = 1e-3
+FORWARD_STEP = 1e-5
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,17 +246,31 @@ class Collocation:
     def gradients(self, orbit: Orbit) -> Gradients:
         """f and its derivatives at the Gauss points of an orbit; raises OrbitError."""
         states = self._gauss_states(orbit)
-        step = DIFFERENCE_STEP * max(1.0, abs(orbit.speed))
         rates = self._rates(states, orbit.speed)
         if self._differences:
             by_state = self._forward_differences(states, orbit.speed, rates)
         else:
             by_state = self._jacobians(states, orbit.speed)
-        by_speed = self._rates(states, orbit.speed + step)
-        by_speed = (by_speed - self._rates(states, orbit.speed - step)) / (2.0 * step)
+        by_speed = self._along_speed(states, orbit.speed, by_state)
         basis = basis_of(orbit.degree)
         phases = orbit.mesh[:-1, None] + np.diff(orbit.mesh)[:, None] * basis.gauss
         return Gradients(phases.ravel(), rates, by_state, by_speed)
+
+    def _along_speed(self, states: Array, speed: float, by_state: Array) -> Array:
+        """df/dV at states (k, n), consistent with their Jacobians.
+
+        Speed and the spin of a wheelset shift the creepage by thousands of times what a joint
+        change of both does, and it is the joint change that an orbit follows. So the difference is
+        taken along with the states that the speed carries over, and their part by the Jacobians
+        is subtracted: Newton's equations are then exact along the joint change.
+        """
+        step = DIFFERENCE_STEP * max(1.0, abs(speed))
+        carry = self.system.carry_over
+        upper = np.array([carry(state, speed, speed + step) for state in states])
+        lower = np.array([carry(state, speed, speed - step) for state in states])
+        change = self._rates(upper, speed + step) - self._rates(lower, speed - step)
+        carried = (upper - lower) / (2.0 * step) / self.scales
+        return change / (2.0 * step) - np.einsum("kij,kj->ki", by_state, carried)
 
     def assemble(self, orbit: Orbit, gradients: Gradients) -> Condensed:
         """Newton's equations from gradients given at the Gauss points of the orbit.
