@@ -54,8 +54,8 @@ class ContinuationSettings:
 
     intervals: int = INTERVALS
     degree: int = DEGREE
-    maximum_intervals: int = 120
-    accuracy: float = 0.02
+    maximum_intervals: int = 80
+    accuracy: float = 0.1
     tolerance: float = 1e-8
     roughness: float = 1e-3
     first_amplitude: float = 0.2

@@ -17,6 +17,9 @@ from exudyn_wheelset.analyses.collocation import Collocation, Condensed, Directi
 from exudyn_wheelset.analyses.orbit import Orbit, OrbitError
 from exudyn_wheelset.analyses.system import Array
 
+# Below this share of Newton's step, a step is taken as it is.
+SMALLEST_FACTOR = 0.1
+
 
 @dataclass(frozen=True, eq=False)
 class Solution:
@@ -50,47 +53,71 @@ def solve_orbit(
     """Periodic orbit near `guess` on which `row` of (orbit - guess) has the value `target`.
 
     `condensed` are the equations at a neighbour; without them the first Jacobians are those of the
-    guess. Jacobians are computed anew, at most `refreshes` times, when a correction is larger than
-    `contraction` times the one before. A step that does not reduce the defects is halved.
-    Converged when the correction, relative to the size of the orbit, is below `tolerance` (in the
-    largest component). Where f jumps (a contact point that changes place) the corrections may stop
-    falling: an orbit with one below `roughness` is then taken. Raises OrbitError.
+    guess. Converged when the correction, relative to the size of the orbit, is below `tolerance`
+    (in the largest component). A step is measured by the correction that the same equations ask
+    for after it (natural monotonicity, Deuflhard, Newton Methods for Nonlinear Problems, Springer
+    2004, section 3.3): above `contraction` times the one before, Jacobians are computed anew, at
+    most `refreshes` times; with new ones a step that does not reduce it is halved. Where f jumps (a
+    contact point that changes place) the corrections may stop falling: an orbit with one below
+    `roughness` is then taken. Raises OrbitError.
     """
     reference = reference or guess
     phase = equations.phase(reference)
-    size = max(equations.size(guess), 1e-12)
-    orbit, defects = guess, equations.defects(guess)
+    mesh, size = guess.mesh, max(equations.size(guess), 1e-12)
+    best, best_orbit = np.inf, guess
     fresh, refreshed = condensed is None, int(condensed is None)
-    condensed = condensed or equations.condense(orbit)
-    previous, best, best_orbit = np.inf, np.inf, orbit
-    steps: list[Direction] = []
-    for iteration in range(1, iterations + 1):
+    condensed = condensed or equations.condense(guess)
+
+    def correction(orbit: Orbit, defects: Array) -> tuple[Direction, float]:
         moved = equations.difference(orbit, guess)
         apart = equations.difference(orbit, reference)
-        values = [
-            -phase(apart.orbit, 0.0, 0.0),
-            target - row(moved.orbit, moved.period, moved.speed),
-        ]
-        step = _broyden(condensed.solve(defects, [phase, row], values), steps)
+        along = row(moved.orbit, moved.period, moved.speed)
+        values = [-phase(apart.orbit, 0.0, 0.0), target - along]
+        raw = condensed.solve(defects, [phase, row], values)
+        return raw, equations.norm(mesh, raw)
+
+    orbit, defects = guess, equations.defects(guess)
+    raw, norm = correction(orbit, defects)
+    steps: list[Direction] = []
+    for iteration in range(1, iterations + 1):
+        step = _broyden(raw, steps)
         length = _relative_size(step, size, orbit, equations)
         if not np.isfinite(length):
             break
-        if length < tolerance:
-            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed, length)
         if length < best:
             best, best_orbit = length, orbit
-        if not fresh and length > contraction * previous:
+        if length < tolerance:
+            return Solution(equations.moved(orbit, step), condensed, iteration, refreshed, length)
+        factor, ratio = 1.0, np.inf
+        while True:
+            trial = equations.moved(orbit, step, factor)
+            try:
+                if trial.period <= 0.0:
+                    raise OrbitError("Newton's correction makes the period negative")
+                new_defects = equations.defects(trial)
+                new_raw, new_norm = correction(trial, new_defects)
+                ratio = new_norm / max(norm, 1e-300)
+            except OrbitError:
+                if factor < SMALLEST_FACTOR:
+                    raise
+                ratio = np.inf
+            if ratio < 1.0 - 0.25 * factor or (factor < SMALLEST_FACTOR and ratio < np.inf):
+                break
+            if not fresh and ratio < np.inf:
+                break
+            factor *= 0.5
+        if ratio < 1.0 or fresh:
+            orbit, defects, raw, norm = trial, new_defects, new_raw, new_norm
+            steps = [*steps, step] if factor == 1.0 else []
+            fresh = False
+        if ratio > contraction:
             # Rounding of f sets a floor to the corrections.
             floor = (1e3 if refreshed else 1e2) * tolerance
             if refreshed >= refreshes or length < floor:
                 break
             condensed = equations.condense(orbit)
-            refreshed += 1
-            fresh, previous, steps = True, np.inf, []
-            continue
-        orbit, defects, factor = _damped(equations, orbit, defects, step, length)
-        steps = [*steps, step] if factor == 1.0 else []
-        previous, fresh = length, False
+            refreshed, fresh, steps = refreshed + 1, True, []
+            raw, norm = correction(orbit, defects)
     if best < max(roughness, 1e3 * tolerance):
         return Solution(best_orbit, condensed, iteration, refreshed, best)
     raise OrbitError(
@@ -120,31 +147,12 @@ def speed_row(orbit: Orbit, size: int) -> Functional:
 
 
 def _relative_size(step: Direction, size: float, orbit: Orbit, equations: Collocation) -> float:
+    """Largest change, relative to the orbit's size; of means, to a hundredth of them if larger."""
+    means = step.orbit.mean(axis=(0, 1))
+    levels = np.maximum(size, 0.01 * np.abs(orbit.states[0]) / equations.scales)
     return max(
-        float(np.abs(step.orbit).max()) / size,
+        float(np.abs(step.orbit - means).max()) / size,
+        float((np.abs(means) / levels).max()),
         abs(step.period) * equations.period_unit / orbit.period,
         abs(step.speed) * equations.speed_unit / max(1.0, abs(orbit.speed)),
     )
-
-
-def _damped(
-    equations: Collocation, orbit: Orbit, defects: Array, step: Direction, length: float
-) -> tuple[Orbit, Array, float]:
-    """The orbit after a step, halved while it makes the defects grow or leaves the model."""
-    before = float(np.linalg.norm(defects))
-    factor = 1.0
-    while True:
-        trial = equations.moved(orbit, step, factor)
-        if trial.period > 0.0:
-            try:
-                after = equations.defects(trial)
-            except OrbitError:
-                if factor < 0.1:
-                    raise
-            else:
-                # Near the solution the defects may be rounding: small steps are taken whole.
-                if length < 1e-3 or factor < 0.1 or np.linalg.norm(after) < 2.0 * before:
-                    return trial, after, factor
-        elif factor < 0.1:
-            raise OrbitError("Newton's correction makes the period negative")
-        factor *= 0.5
