@@ -241,8 +241,9 @@ def draw(path: Path, truck: Truck, numbers: dict[str, Any], motions: Sequence[Mo
     figure, axes = new_figure(12.0, 7.2, 2, 2)
     critical = numbers["critical_speed"]
     speeds = np.linspace(0.4 * critical, 1.6 * critical, 61)
-    marks = draw_root_locus(axes[0, 0], root_locus(truck.dynamic_system(), speeds), 20.0, critical)
-    axes[0, 0].set_xlim(-12.0, None)
+    locus = root_locus(truck.dynamic_system(), speeds)
+    marks = draw_root_locus(axes[0, 0], locus, 12.0, critical)
+    axes[0, 0].set_xlim(-10.0, max(1.0, 1.2 * float(np.real(locus.eigenvalues).max())))
     figure.colorbar(marks, ax=axes[0, 0], label="speed [m/s]")
     _draw_mode(axes[0, 1], truck, numbers)
     for panel, motion in zip(axes[1], motions, strict=False):
