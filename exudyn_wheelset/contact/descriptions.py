@@ -189,17 +189,13 @@ def _highest_point(coefficients: np.ndarray, spacing: float) -> tuple[float, flo
     best = (float(coefficients[0, 0]), float(coefficients[0, 4]))
     top = int(np.argmax(coefficients[:, 4]))
     for segment in coefficients[max(top - 1, 0) : top + 1]:
-        height = np.polynomial.Polynomial(segment[4:])
-        lateral = np.polynomial.Polynomial(segment[:4])
+        slope, bend, twist = segment[5], 2.0 * segment[6], 3.0 * segment[7]
         places = [0.0, spacing]
-        places += [
-            float(root.real)
-            for root in height.deriv().roots()
-            if abs(root.imag) < 1e-12 and 0.0 < root.real < spacing
-        ]
+        places += [float(root.real) for root in np.roots([twist, bend, slope]) if root.imag == 0.0]
         for place in places:
-            if height(place) > best[1]:
-                best = (float(lateral(place)), float(height(place)))
+            height = float(np.polynomial.polynomial.polyval(place, segment[4:]))
+            if 0.0 <= place <= spacing and height > best[1]:
+                best = (float(np.polynomial.polynomial.polyval(place, segment[:4])), height)
     return best
 
 

@@ -63,6 +63,10 @@ class Patch:
     energy: float
 
 
+# The row of a patch begins with its plain numbers, in the order of the fields.
+_PATCH_NUMBERS = tuple(Patch.__dataclass_fields__)[: kernel.PATCH_X]
+
+
 @dataclass(frozen=True)
 class ContactForces:
     """Forces of the rails on a wheelset, track frame.
@@ -142,8 +146,8 @@ def contact_forces(
     those of `contact_parameters`.
     Raises WheelsetError for numbers that are not finite, of the wrong count, or unknown names.
     """
-    pose = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
-    velocity = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
+    _, y, z, roll, _, yaw = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
+    motion_of_centre = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
     motion = np.zeros(8) if rail_motion is None else _numbers("rail_motion", rail_motion, 8)
     parameters = contact_parameters(
         normal=normal,
@@ -154,12 +158,10 @@ def contact_forces(
         damping=damping,
         **law_parameters,
     )
-    _, y, z, roll, _, yaw = pose
     axle = (-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll))
     result = kernel.new_result()
-    wheelset_forces(
-        contact_tables(wheelset, track), y, z, *axle, *velocity, motion, parameters, result
-    )
+    table = contact_tables(wheelset, track)
+    wheelset_forces(table, y, z, *axle, *motion_of_centre, motion, parameters, result)  # type: ignore[call-arg]
     return read_result(result)
 
 
@@ -170,12 +172,13 @@ def read_result(result: np.ndarray) -> ContactForces:
         patches = []
         for k in range(int(result[kernel.COUNT_LEFT + hand])):
             start = kernel.PATCHES + (hand * MOST_LOBES + k) * kernel.PATCH_WIDTH
-            row = [float(value) for value in result[start : start + kernel.PATCH_WIDTH]]
+            row = result[start : start + kernel.PATCH_WIDTH].tolist()
+            numbers = dict(zip(_PATCH_NUMBERS, row, strict=False))
             patches.append(
                 Patch(
-                    *row[: kernel.PATCH_X],
-                    position=(row[14], row[15], row[16]),
-                    normal=(0.0, row[17], row[18]),
+                    **numbers,
+                    position=(row[kernel.PATCH_X], row[kernel.PATCH_Y], row[kernel.PATCH_Z]),
+                    normal=(0.0, row[kernel.PATCH_NORMAL_Y], row[kernel.PATCH_NORMAL_Z]),
                     energy=row[kernel.PATCH_ENERGY],
                 )
             )
