@@ -44,11 +44,13 @@ class ContinuationSettings:
     growth              largest change of the orbit in one step, as a fraction of its size
     speed_steps         the speed range is crossed in at least this many steps
     smallest_step       of the arclength, as a fraction of the largest allowed one
-    turn                largest turn of the tangent in one step [rad]
+    turn, corner        largest turn of the tangent in one step [rad], asked for in steps down to
+                        this fraction of the largest allowed one
     adapt_every         points between two adaptations of the mesh
     maximum_points      a branch ends after so many points
     amplitude_limits    state name to half peak to peak [m or rad] at which a branch ends
     fold_tolerance      relative error of the speed of a fold
+    fold_visible        relative change of speed about a fold below which it is not one
     stability_margin    a multiplier of size 1 + this is not yet called unstable
     """
 
@@ -63,10 +65,12 @@ class ContinuationSettings:
     speed_steps: int = 25
     smallest_step: float = 1e-4
     turn: float = 0.5
+    corner: float = 0.03
     adapt_every: int = 4
     maximum_points: int = 200
     amplitude_limits: tuple[tuple[str, float], ...] = ()
     fold_tolerance: float = 1e-6
+    fold_visible: float = 1e-5
     stability_margin: float = 1e-5
 
     def __post_init__(self) -> None:
@@ -267,10 +271,13 @@ class _Follower:
         cosine = equations.inner(orbit.mesh, tangent)(*_parts(new.tangent))
         # At a corner of the branch (a contact that sets in) every step turns by as much: the
         # smallest ones are let through.
-        large = self.step > 30.0 * settings.smallest_step * self._largest_step()
+        large = self.step > settings.corner * self._largest_step()
         if large and cosine < np.cos(settings.turn):
             raise OrbitError("the branch turns more sharply than a step may")
-        if new.tangent.speed * tangent.speed < 0.0:
+        # On a straight tread the branch is vertical, and its speed rises and falls by rounding.
+        excursion = 0.25 * length * max(abs(tangent.speed), abs(new.tangent.speed))
+        visible = excursion * equations.speed_unit > settings.fold_visible * max(1.0, orbit.speed)
+        if visible and new.tangent.speed * tangent.speed < 0.0:
             self._locate_fold(base, new, length)
         self.base = new
         self._keep(self._point(new))
