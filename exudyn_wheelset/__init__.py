@@ -1,7 +1,7 @@
 """Profiled wheels on profiled rails for the multibody engine Exudyn.
 
-    from exudyn_wheelset import Track, Wheelset, create_wheelset
-    items = create_wheelset(mbs, Wheelset(...), Track(rail="UIC60"), speed=30)
+from exudyn_wheelset import Track, Wheelset, create_wheelset
+items = create_wheelset(mbs, Wheelset(...), Track(rail="UIC60"), speed=30)
 """
 
 from importlib import metadata
@@ -52,7 +52,7 @@ _PLACES = {
     "save_profile": "profiles",
 }
 
-__all__ = sorted([*_PLACES, "__version__"])  # noqa: PLE0605
+__all__ = sorted([*_PLACES, "__version__"])
 
 
 def __getattr__(name: str) -> object:

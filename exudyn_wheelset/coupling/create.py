@@ -145,14 +145,14 @@ def create_wheelset(
         LoadForceVector(
             name=f"{name} rail force",
             markerNumber=marker,
-            loadVectorUserFunction=contact.force_load,
+            loadVectorUserFunction=contact.load_function(0),
         )
     )
     torque = mbs.AddLoad(
         LoadTorqueVector(
             name=f"{name} rail torque",
             markerNumber=marker,
-            loadVectorUserFunction=contact.torque_load,
+            loadVectorUserFunction=contact.load_function(1),
         )
     )
     side_sensors: list[int | None] = [None, None]

@@ -38,13 +38,24 @@ _DERAILED_RISE = 0.015
 Irregularity = Callable[[float], Any]
 
 
+# Everything of a contact that changes stands in one array, for unpacking an array costs a call from
+# Python a good part of what a patch costs: the coordinates a result belongs to, the body's
+# reference position, the rails' motion, the parameters, the result.
+_MEMORY = slice(0, 12)
+_REFERENCE = slice(12, 15)
+_RAIL_MOTION = slice(15, 23)
+_PARAMETERS = slice(23, 23 + kernel.PARAMETER_COUNT)
+_RESULT = slice(23 + kernel.PARAMETER_COUNT, None)
+
+
 @njit(cache=True, error_model="numpy")
-def body_wrench(q, v, first, reference, table, parameters, rail_motion, memory, result, part):
+def body_wrench(q, v, first, table, state, part):
     """Return part 0 (force [N]) or 1 (torque [N m]) of the wrench at system coordinates q, v.
 
-    first: index of the body's six coordinates in q; reference (3) [m]: its reference position;
-    memory (12): coordinates of the result at hand.
+    first: index of the body's six coordinates in q; state: the contact's array (see above).
     """
+    memory = state[_MEMORY]
+    result = state[_RESULT]
     same = True
     for k in range(6):
         if memory[k] != q[first + k] or memory[6 + k] != v[first + k]:
@@ -70,6 +81,7 @@ def body_wrench(q, v, first, reference, table, parameters, rail_motion, memory, 
         ux = ty * wz - tz * wy
         uy = tz * wx - tx * wz
         uz = tx * wy - ty * wx
+        reference = state[_REFERENCE]
         wheelset_forces(
             table,
             reference[1] + q[first + 1],
@@ -79,7 +91,7 @@ def body_wrench(q, v, first, reference, table, parameters, rail_motion, memory, 
             wx + s * ux + c * (ty * uz - tz * uy),
             wy + s * uy + c * (tz * ux - tx * uz),
             wz + s * uz + c * (tx * uy - ty * ux),
-            rail_motion, parameters, result,
+            state[_RAIL_MOTION], state[_PARAMETERS], result,
         )  # fmt: skip
     base = 3 * part
     return result[base], result[base + 1], result[base + 2]
@@ -103,15 +115,18 @@ class WheelRailContact:
 
     def __post_init__(self) -> None:
         self.table = contact_tables(self.wheelset, self.track)
-        self.parameters = np.array(self.parameters, dtype=float)
-        self.result = kernel.new_result()
-        self.memory = np.full(12, np.nan)
-        self.rail_motion = np.zeros(8)
-        self.reference = np.zeros(3)
+        result = kernel.new_result()
+        self._state = np.zeros(_RESULT.start + len(result))
+        self._state[_PARAMETERS] = self.parameters
+        self.parameters = self._state[_PARAMETERS]
+        self.reference = self._state[_REFERENCE]
+        self.rail_motion = self._state[_RAIL_MOTION]
+        self._memory = self._state[_MEMORY]
+        self.forget()
+        self._sensor_state = self._state.copy()
+        self._data: Any = None
         self.first = -1
         self.node = -1
-        self._sensor_result = kernel.new_result()
-        self._sensor_memory = np.full(12, np.nan)
         self.set_speed(self.rail_speed)
 
     def set_speed(self, speed: float) -> None:
@@ -122,46 +137,42 @@ class WheelRailContact:
 
     def forget(self) -> None:
         """Drop the kept evaluation, after a parameter has changed."""
-        self.memory[0] = np.nan
+        self._memory[0] = np.nan
 
     def attach(self, mbs: Any, node: int) -> None:
         """Bind to the body's node; its place in the system is looked up at the first call."""
         self.node = node
-        self.reference = np.array(mbs.GetNodeParameter(node, "referenceCoordinates")[:3])
+        self.reference[:] = mbs.GetNodeParameter(node, "referenceCoordinates")[:3]
         self.first = -1
 
     def place(self, mbs: Any) -> None:
         """Look up where the body stands in the assembled system."""
-        indices = mbs.systemData.GetNodeLTGODE2(self.node)
+        self._data = mbs.systemData
+        indices = self._data.GetNodeLTGODE2(self.node)
         self.first = int(indices[0])
 
-    def force_load(self, mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
-        """User function of the force load: force [N] of both rails, global axes."""
-        return self._wrench(mbs, t, 0)
+    def load_function(self, part: int) -> Callable[[Any, float, Any], tuple[float, float, float]]:
+        """User function of the force load (part 0) or the torque load (part 1), global axes.
 
-    def torque_load(self, mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
-        """User function of the torque load: torque [N m] about the centre, global axes."""
-        return self._wrench(mbs, t, 1)
+        A closure, because every attribute looked up here is looked up at each evaluation.
+        """
+        table, state = self.table, self._state
+        coordinates = velocities = None
+        first = -1
 
-    def _wrench(self, mbs: Any, t: float, part: int) -> tuple[float, float, float]:
-        if self.first < 0:
-            self.place(mbs)
-        data = mbs.systemData
-        q = data.GetODE2Coordinates()
-        if self.irregularity is not None:
-            self._move_rails(q, t)
-        return body_wrench(
-            q,
-            data.GetODE2Coordinates_t(),
-            self.first,
-            self.reference,
-            self.table,
-            self.parameters,
-            self.rail_motion,
-            self.memory,
-            self.result,
-            part,
-        )
+        def wrench(mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
+            nonlocal coordinates, velocities, first
+            if coordinates is None:
+                self.place(mbs)
+                first = self.first
+                coordinates = self._data.GetODE2Coordinates
+                velocities = self._data.GetODE2Coordinates_t
+            q = coordinates()
+            if self.irregularity is not None:
+                self._move_rails(q, t)
+            return body_wrench(q, velocities(), first, table, state, part)
+
+        return wrench
 
     def _move_rails(self, q: np.ndarray, t: float) -> None:
         assert self.irregularity is not None
@@ -174,7 +185,7 @@ class WheelRailContact:
     def current(self, mbs: Any, configuration: Any = None) -> ContactForces:
         """Patches and wrench at the current state of the system (or another configuration)."""
         self.evaluate(mbs, configuration)
-        return read_result(self._sensor_result)
+        return read_result(self._sensor_state[_RESULT])
 
     def evaluate(self, mbs: Any, configuration: Any = None) -> np.ndarray:
         """Result array at the system's state, kept apart from the solver's."""
@@ -182,21 +193,20 @@ class WheelRailContact:
             self.place(mbs)
         arguments = () if configuration is None else (configuration,)
         data = mbs.systemData
+        state = self._sensor_state
+        state[_PARAMETERS] = self.parameters
+        state[_REFERENCE] = self.reference
+        state[_RAIL_MOTION] = self.rail_motion
+        state[_MEMORY] = np.nan
         body_wrench(
             data.GetODE2Coordinates(*arguments),
             data.GetODE2Coordinates_t(*arguments),
             self.first,
-            self.reference,
             self.table,
-            self.parameters,
-            self.rail_motion,
-            self._sensor_memory,
-            self._sensor_result,
+            state,
             0,
         )
-        # The memory does not see a changed parameter: the next sensor call computes anew.
-        self._sensor_memory[0] = np.nan
-        return self._sensor_result
+        return state[_RESULT]
 
     def elastic_energy(self, mbs: Any) -> float:
         """Energy [J] stored in all patches at the current state."""

@@ -92,7 +92,7 @@ def lateral_accelerations(state, speed, p, breaks, coefficients, sides):
     values = np.empty((COLUMN_COUNT, 3))
     piecewise_values(breaks, coefficients, y, values)
     roll, roll_y, roll_yy = values[0]
-    height, height_y, height_yy = values[1]
+    _, height_y, height_yy = values[1]
     roll_rate = roll_y * y_rate
     spin_rate = speed / p[NOMINAL_RADIUS]
     gyroscopic = p[GYROSCOPIC] * p[SPIN_INERTIA] * spin_rate

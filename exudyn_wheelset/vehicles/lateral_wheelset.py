@@ -20,8 +20,8 @@ import numpy as np
 from exudyn_wheelset.analyses.system import DynamicSystem
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.piecewise import piecewise_geometry
+from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
