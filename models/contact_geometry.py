@@ -10,6 +10,7 @@ comparison of the two ways to find the roll angle.
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 import time
 from collections.abc import Sequence
@@ -159,6 +160,7 @@ def draw(out: Path, result: Result) -> list[Path]:
     """Write Figure 3, the profiles in contact and the data of one pair; return the files."""
     pair, geometry = result.pair, result.geometry
     stem = f"contact_geometry_{pair.wheelset.wheel.name}_{pair.track.rail.name}"
+    stem = re.sub(r"[^\w.+-]+", "_", stem)
     figure, axes = new_figure(10.5, 7.0, 2, 2)
     draw_contact_geometry(axes, geometry, result.pieces)
     degrees = ", ".join(str(degree) for degree in result.pieces.degrees)

@@ -10,6 +10,7 @@ are drawn to plain dimensions and mean nothing.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -196,7 +197,7 @@ def _prepare(SC: Any, size: tuple[int, int], smooth: int, perspective: float) ->
     light.shadow = 0.5
     light.diffuse = 0.6
     settings.raytracer.multiSampling = smooth
-    settings.raytracer.numberOfThreads = 2
+    settings.raytracer.numberOfThreads = os.cpu_count() or 1
 
 
 def _rail_section(placement: RailPlacement, inclination: float) -> np.ndarray:
