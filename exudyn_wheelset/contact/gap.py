@@ -14,12 +14,12 @@ from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import grid_foot
 from exudyn_wheelset.contact.tables import (
+    FINE_COUNT,
+    FINE_NODES,
     GRID,
     GRID_START,
     GRID_STEP,
     HEADER,
-    NODE_COUNT,
-    NODES,
     RAIL,
     RAIL_HIGH,
     RAIL_LOW,
@@ -79,8 +79,8 @@ def least_gap(table, side, cy, lx, ly, lz):
     Returns (gap, wheel arc, rail arc, second gap, second wheel arc, second rail arc); the second
     gap is inf where there is no other local minimum within the scan's window.
     """
-    nodes = int(table[side + NODES])
-    count = int(table[side + NODE_COUNT])
+    nodes = int(table[side + FINE_NODES])
+    count = int(table[side + FINE_COUNT])
     grid = int(table[side + GRID])
     start = table[side + GRID_START]
     step = table[side + GRID_STEP]

@@ -21,12 +21,14 @@ RAIL, RAIL_SPACING, RAIL_SEGMENTS = 6, 7, 8
 NODES, NODE_COUNT = 9, 10
 GRID, GRID_START, GRID_STEP, GRID_COUNT = 11, 12, 13, 14
 RAIL_LOW, RAIL_HIGH = 15, 16
+FINE_NODES, FINE_COUNT = 17, 18
 HEADER = 24
 MOST_NODES = 320
 
 # Two nodes a pair of millimetres see every patch: the sharpest curvatures in use (12 mm flange tip
 # on a 13 mm gauge corner) sag 0.08 mm over a millimetre, less than SCAN_MARGIN in search.py; lobes
-# closer together than two nodes merge anyway (benchmarks/scan_spacing.py).
+# closer together than two nodes merge anyway (benchmarks/scan_spacing.py). Rigid contact, which has
+# no patches that merge, is scanned with twice as many nodes (FINE_NODES).
 NODE_SPACING = 2.0e-3
 GRID_SPACING = 0.25e-3
 # Steeper parts (flange back, web side of the head) never carry a wheel; without them height is a
@@ -84,15 +86,26 @@ def _side_blocks(header, wheel: Profile, radius: float, rail: RailPlacement, tap
     header[WHEEL_SEGMENTS] = len(wheel_curve)
     header[RAIL_SPACING] = rail.spacing
     header[RAIL_SEGMENTS] = len(rail_curve)
-    nodes = _nodes(wheel_curve, wheel_table.ds, radius, tape)
+    # A knife-edge is narrower than the usual spacing: nodes that do not step over it.
+    node_spacing = min(NODE_SPACING, (rail_curve[-1, 0] - rail_curve[0, 0]) / 4.0)
+    coarsest = wheel_table.ds * -(-len(wheel_curve) // MOST_NODES)
+    nodes = _nodes(wheel_curve, wheel_table.ds, max(node_spacing, coarsest), radius, tape)
+    fine = _nodes(wheel_curve, wheel_table.ds, 0.5 * node_spacing, radius, tape)
     header[NODE_COUNT] = nodes.shape[1]
+    header[FINE_COUNT] = fine.shape[1]
     grid, start = _grid(rail_curve, rail.spacing)
     header[GRID_START] = start
     header[GRID_STEP] = GRID_SPACING
     header[GRID_COUNT] = grid.shape[1]
     header[RAIL_LOW] = start + GRID_SPACING
     header[RAIL_HIGH] = start + (grid.shape[1] - 2) * GRID_SPACING
-    return [(wheel_curve, WHEEL), (rail_curve, RAIL), (nodes, NODES), (grid, GRID)]
+    return [
+        (wheel_curve, WHEEL),
+        (rail_curve, RAIL),
+        (nodes, NODES),
+        (grid, GRID),
+        (fine, FINE_NODES),
+    ]
 
 
 def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
@@ -111,9 +124,11 @@ def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
     return np.ascontiguousarray(coefficients[first : last + 1])
 
 
-def _nodes(curve: np.ndarray, spacing: float, radius: float, tape: float) -> np.ndarray:
+def _nodes(
+    curve: np.ndarray, spacing: float, node_spacing: float, radius: float, tape: float
+) -> np.ndarray:
     """Rows: arc length, distance from the axle's centre, radius, dr/dy, 1/sqrt(1 + (dr/dy)^2)."""
-    step = max(round(NODE_SPACING / spacing), 1, -(-len(curve) // MOST_NODES))
+    step = max(round(node_spacing / spacing), 1)
     picked = np.arange(0, len(curve), step)
     rows = curve[picked]
     slope = -rows[:, 5] / rows[:, 1]
