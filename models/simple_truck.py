@@ -260,7 +260,8 @@ def draw(path: Path, truck: Truck, numbers: dict[str, Any], motions: Sequence[Mo
         )
         panel.set_xlabel("time [s]")
         panel.set_ylabel("y [mm]")
-        panel.legend(fontsize=8, frameon=False, loc="upper left")
+        grows = motion.numbers["growth_rate_eigenvalue"] > 0.0
+        panel.legend(fontsize=8, frameon=False, loc="upper left" if grows else "upper right")
     figure.suptitle(
         f"{truck.name}: {truck.wheelset.wheel.name} on {truck.track.rail.name}", fontsize=11
     )

@@ -216,7 +216,8 @@ def draw_wheelset_motion(
     """
     t = motion["t"]
     lateral, yaw, normal, creep, place = axes
-    corner = "upper left" if np.argmax(np.abs(motion["y"])) > len(t) // 2 else "upper right"
+    grows = np.argmax(np.abs(motion["y"])) > len(t) // 2
+    corner: Any = "upper left" if grows else "upper right"
     lateral.plot(t, motion["y"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
     if growth_rate is not None:
         centre = motion.get("y_equilibrium", np.zeros(1))[0]
