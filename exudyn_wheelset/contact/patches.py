@@ -8,8 +8,8 @@ Two neighbouring lobes with penetrations delta_1, delta_2 become one patch when 
 them disappears. With the separation s (search.py), the patch of lobe j carries
     N_j = s N(delta_j, B_j) + (1 - s) share_j N(max delta, B_merged),
 where B_merged belongs to the zone over both lobes and share_j to lobe j's part of it; creep force,
-ellipse and position are blended alike (a share of a merged patch has its share of that patch's
-creep force). So a lobe enters and leaves without a step in force.
+ellipse and position are blended alike (a share of a merged patch stands at that patch's place and
+has its share of that patch's creep force). So a lobe enters and leaves without a step in force.
 
 Frame: track frame, left side.
 """
@@ -203,10 +203,21 @@ def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes
             own = lobes[k, mine]
             whole = own + lobes[other, theirs]
             share = own / whole
-            merged_force, merged_a, merged_b = _ellipse(whole, deepest, radius, nz, parameters)
+            merged_place = (lobes[k, mine + 1] + lobes[other, theirs + 1]) / whole
+            merged_at = (lobes[k, mine + 2] + lobes[other, theirs + 2]) / whole
+            my, mz = _unit(
+                lobes[k, mine + 3] + lobes[other, theirs + 3],
+                lobes[k, mine + 4] + lobes[other, theirs + 4],
+            )
+            _, _, _, _, _, merged_radius, _, _ = wheel_point(
+                table, side, merged_place, cy, cz, lx, ly, lz
+            )
+            merged_force, merged_a, merged_b = _ellipse(
+                whole, deepest, merged_radius, mz, parameters
+            )
             if virtual:
                 origin = lobes[k if depth == deepest else other, LOBE_ARC]
-                along = 0.5 * nz / radius
+                along = 0.5 * mz / merged_radius
                 first, second = _integrals(
                     table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes
                 )
@@ -214,16 +225,14 @@ def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes
                     table, side, other, deepest, origin, along, cy, cz, lx, ly, lz, lobes
                 )
                 merged_force, merged_a, merged_b = _virtual_ellipse(
-                    first + more, second + further, whole, deepest, radius, nz, parameters
+                    first + more, second + further, whole, deepest, merged_radius, mz, parameters
                 )
             rest = (1.0 - separation) * share
-            # A share's position counts with the force it brings.
+            # A share stands where the whole patch does, with the weight of the force it brings.
             weight = rest * merged_force / max(separation * force + rest * merged_force, 1.0e-30)
-            if own > 0.0:
-                place += weight * (lobes[k, mine + 1] / own - place)
-                at += weight * (lobes[k, mine + 2] / own - at)
-                my, mz = _unit(lobes[k, mine + 3], lobes[k, mine + 4])
-                ny, nz = _unit(ny + weight * (my - ny), nz + weight * (mz - nz))
+            place += weight * (merged_place - place)
+            at += weight * (merged_at - at)
+            ny, nz = _unit(ny + weight * (my - ny), nz + weight * (mz - nz))
             result[row + PATCH_SHARE] = share
             result[row + PATCH_MERGED_FORCE] = merged_force
             result[row + PATCH_MERGED_A] = merged_a
