@@ -13,6 +13,8 @@ from exudyn.utilities import (
     LoadForceVector,
     LoadTorqueVector,
     MarkerBodyRigid,
+    NodeGenericODE1,
+    ObjectGenericODE1,
     RigidBodyInertia,
     SensorUserFunction,
 )
@@ -21,6 +23,7 @@ from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
+from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
 
@@ -88,6 +91,7 @@ def create_wheelset(
     poisson: float = 0.28,
     damping: float = 1.0,
     irregularity: Irregularity | None = None,
+    rail_elasticity: RailElasticity | None = None,
     sensors: bool = True,
     show: bool = True,
     name: str = "wheelset",
@@ -101,7 +105,8 @@ def create_wheelset(
     along x. height [m] of the centre above `radius` over the rail tops (default: 0.1 mm into the
     rails' rigid contact, about the static penetration); lateral_offset [m] and yaw [rad]: initial
     displacement. gravity [m/s^2] downwards. normal, creep, friction, shear_modulus, poisson,
-    damping and law_parameters: see `contact_parameters`. irregularity: see WheelRailContact.
+    damping and law_parameters: see `contact_parameters`. irregularity: see WheelRailContact;
+    rail_elasticity: springs and dampers under each rail (coupling/elastic_rails.py).
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
     rails.
     """
@@ -119,7 +124,12 @@ def create_wheelset(
         **law_parameters,
     )
     contact = WheelRailContact(
-        wheelset, track, parameters, speed if moving_frame else 0.0, irregularity
+        wheelset,
+        track,
+        parameters,
+        speed if moving_frame else 0.0,
+        irregularity,
+        rail_elasticity,
     )
     if height is None:
         height = _rest_height(wheelset, track) - 1.0e-4
@@ -155,6 +165,8 @@ def create_wheelset(
             loadVectorUserFunction=contact.load_function(1),
         )
     )
+    if rail_elasticity is not None:
+        _create_rails(mbs, contact, name)
     side_sensors: list[int | None] = [None, None]
     if sensors:
         for hand, side in enumerate(("left", "right")):
@@ -177,6 +189,27 @@ def create_wheelset(
         side_sensors[0],
         side_sensors[1],
         contact,
+    )
+
+
+def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:
+    """Add the elastic rails' shifts as first-order coordinates."""
+    rails = mbs.AddNode(
+        NodeGenericODE1(
+            name=f"{name} rails",
+            referenceCoordinates=[0.0] * 4,
+            initialCoordinates=[0.0] * 4,
+            numberOfODE1Coordinates=4,
+        )
+    )
+
+    def rates(mbs: Any, t: float, item: int, shifts: Any) -> list[float]:
+        return contact.rail_rates(mbs, t)
+
+    contact.attach_rails(
+        mbs.AddObject(
+            ObjectGenericODE1(name=f"{name} rails", nodeNumbers=[rails], rhsUserFunction=rates)
+        )
     )
 
 

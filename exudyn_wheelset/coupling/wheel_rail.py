@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,7 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.forces import wheelset_forces
 from exudyn_wheelset.contact.tables import RADIUS, contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
+from exudyn_wheelset.coupling.elastic_rails import RailElasticity, elastic_forces
 from exudyn_wheelset.errors import ContactError
 
 # A patch on the outer half of the flange, beyond the steepest contact angle, means that the wheel
@@ -44,8 +45,11 @@ Irregularity = Callable[[float], Any]
 _MEMORY = slice(0, 12)
 _REFERENCE = slice(12, 15)
 _RAIL_MOTION = slice(15, 23)
-_PARAMETERS = slice(23, 23 + kernel.PARAMETER_COUNT)
-_RESULT = slice(23 + kernel.PARAMETER_COUNT, None)
+_ELASTICITY = slice(23, 27)
+_SHIFTS = slice(27, 31)
+_RATES = slice(31, 35)
+_PARAMETERS = slice(35, 35 + kernel.PARAMETER_COUNT)
+_RESULT = slice(35 + kernel.PARAMETER_COUNT, None)
 
 
 @njit(cache=True, error_model="numpy")
@@ -82,17 +86,24 @@ def body_wrench(q, v, first, table, state, part):
         uy = tz * wx - tx * wz
         uz = tx * wy - ty * wx
         reference = state[_REFERENCE]
-        wheelset_forces(
-            table,
-            reference[1] + q[first + 1],
-            reference[2] + q[first + 2] - table[RADIUS],
-            lx, ly, lz,
-            v[first], v[first + 1], v[first + 2],
-            wx + s * ux + c * (ty * uz - tz * uy),
-            wy + s * uy + c * (tz * ux - tx * uz),
-            wz + s * uz + c * (tx * uy - ty * ux),
-            state[_RAIL_MOTION], state[_PARAMETERS], result,
-        )  # fmt: skip
+        y = reference[1] + q[first + 1]
+        z = reference[2] + q[first + 2] - table[RADIUS]
+        vx, vy, vz = v[first], v[first + 1], v[first + 2]
+        ox = wx + s * ux + c * (ty * uz - tz * uy)
+        oy = wy + s * uy + c * (tz * ux - tx * uz)
+        oz = wz + s * uz + c * (tx * uy - ty * ux)
+        motion = state[_RAIL_MOTION]
+        parameters = state[_PARAMETERS]
+        elasticity = state[_ELASTICITY]
+        if elasticity[0] > 0.0:
+            elastic_forces(
+                table, y, z, lx, ly, lz, vx, vy, vz, ox, oy, oz, motion, parameters, result,
+                elasticity, state[_SHIFTS], state[_RATES],
+            )  # fmt: skip
+        else:
+            wheelset_forces(
+                table, y, z, lx, ly, lz, vx, vy, vz, ox, oy, oz, motion, parameters, result
+            )
     base = 3 * part
     return result[base], result[base + 1], result[base + 2]
 
@@ -103,7 +114,8 @@ class WheelRailContact:
 
     wheelset, track: descriptions; parameters: array of `contact_parameters`; rail_speed [m/s]:
     speed of the moving frame the model stands in, 0 for a model that runs over the ground;
-    irregularity: function of the station [m] that returns the rail motion (8) per unit, or None.
+    irregularity: function of the station [m] that returns the rail motion (8), or None;
+    elasticity: springs under each rail, or None for rails that do not give way.
     """
 
     wheelset: Wheelset
@@ -111,7 +123,7 @@ class WheelRailContact:
     parameters: np.ndarray
     rail_speed: float = 0.0
     irregularity: Irregularity | None = None
-    evaluations: int = field(default=0, init=False)
+    elasticity: RailElasticity | None = None
 
     def __post_init__(self) -> None:
         self.table = contact_tables(self.wheelset, self.track)
@@ -122,11 +134,17 @@ class WheelRailContact:
         self.reference = self._state[_REFERENCE]
         self.rail_motion = self._state[_RAIL_MOTION]
         self._memory = self._state[_MEMORY]
+        self._shifts = self._state[_SHIFTS]
+        if self.elasticity is not None:
+            self._state[_ELASTICITY] = self.elasticity.numbers()
+        self._rail_object: Any = None
+        self._rail_place = slice(0, 0)
         self.forget()
         self._sensor_state = self._state.copy()
         self._data: Any = None
         self.first = -1
         self.node = -1
+        self._wrench = self.load_function(0)
         self.set_speed(self.rail_speed)
 
     def set_speed(self, speed: float) -> None:
@@ -150,6 +168,9 @@ class WheelRailContact:
         self._data = mbs.systemData
         indices = self._data.GetNodeLTGODE2(self.node)
         self.first = int(indices[0])
+        if self._rail_object is not None:
+            start = int(self._data.GetObjectLTGODE1(self._rail_object)[0])
+            self._rail_place = slice(start, start + 4)
 
     def load_function(self, part: int) -> Callable[[Any, float, Any], tuple[float, float, float]]:
         """User function of the force load (part 0) or the torque load (part 1), global axes.
@@ -168,19 +189,33 @@ class WheelRailContact:
                 coordinates = self._data.GetODE2Coordinates
                 velocities = self._data.GetODE2Coordinates_t
             q = coordinates()
-            if self.irregularity is not None:
+            if self.irregularity is not None or self.elasticity is not None:
                 self._move_rails(q, t)
             return body_wrench(q, velocities(), first, table, state, part)
 
         return wrench
 
+    def attach_rails(self, rail_object: Any) -> None:
+        """Bind the four first-order coordinates of the elastic rails' shifts."""
+        self._rail_object = rail_object
+
+    def rail_rates(self, mbs: Any, t: float) -> list[float]:
+        """Rates [m/s] of the elastic rails' shifts: left y, z, right y, z."""
+        self._wrench(mbs, t, None)
+        return self._state[_RATES].tolist()
+
     def _move_rails(self, q: np.ndarray, t: float) -> None:
-        assert self.irregularity is not None
-        station = self.reference[0] + q[self.first] + self.rail_speed * t
-        motion = np.asarray(self.irregularity(station), dtype=float)
-        if not np.array_equal(motion, self.rail_motion):
-            self.rail_motion[:] = motion
-            self.forget()
+        if self.irregularity is not None:
+            station = self.reference[0] + q[self.first] + self.rail_speed * t
+            motion = np.asarray(self.irregularity(station), dtype=float)
+            if not np.array_equal(motion, self.rail_motion):
+                self.rail_motion[:] = motion
+                self.forget()
+        if self.elasticity is not None:
+            shifts = self._data.GetODE1Coordinates()[self._rail_place]
+            if not np.array_equal(shifts, self._shifts):
+                self._shifts[:] = shifts
+                self.forget()
 
     def current(self, mbs: Any, configuration: Any = None) -> ContactForces:
         """Patches and wrench at the current state of the system (or another configuration)."""
@@ -197,6 +232,10 @@ class WheelRailContact:
         state[_PARAMETERS] = self.parameters
         state[_REFERENCE] = self.reference
         state[_RAIL_MOTION] = self.rail_motion
+        state[_ELASTICITY] = self._state[_ELASTICITY]
+        state[_RATES] = self._state[_RATES]
+        if self.elasticity is not None:
+            state[_SHIFTS] = data.GetODE1Coordinates(*arguments)[self._rail_place]
         state[_MEMORY] = np.nan
         body_wrench(
             data.GetODE2Coordinates(*arguments),
