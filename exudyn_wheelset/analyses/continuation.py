@@ -224,6 +224,7 @@ class _Follower:
             row = Functional(row.orbit, 0.0, float(heading))
         self.base = self._base(orbit, condensed, row)
         self.first, self.away = self.base, False
+        self.behind: Orbit | None = None
         self._keep(self._point(self.base))
         self.step = 0.3 * self._largest_step()
         self.size = self.equations.size(orbit)
@@ -266,6 +267,8 @@ class _Follower:
             raise OrbitError("Newton left the branch: the orbit changed its size")
         if not 0.67 < orbit.period / guess.period < 1.5:
             raise OrbitError("Newton left the branch: the orbit changed its period")
+        if self._turns_back(orbit):
+            raise OrbitError("the orbits lead back along the branch")
         condensed = equations.condense(orbit)
         new = self._base(orbit, condensed, equations.inner(orbit.mesh, tangent))
         cosine = equations.inner(orbit.mesh, tangent)(*_parts(new.tangent))
@@ -279,7 +282,7 @@ class _Follower:
         visible = excursion * equations.speed_unit > settings.fold_visible * max(1.0, orbit.speed)
         if visible and new.tangent.speed * tangent.speed < 0.0:
             self._locate_fold(base, new, length)
-        self.base = new
+        self.behind, self.base = base.orbit, new
         self._keep(self._point(new))
         if end is not None:
             return self._left(end)
@@ -300,6 +303,16 @@ class _Follower:
         if error < 0.02 * settings.accuracy:
             return max(settings.intervals, count - count // 4)
         return count
+
+    def _turns_back(self, orbit: Orbit) -> bool:
+        """Whether a step to an orbit goes against the last one: at a jump of f it may."""
+        if self.behind is None:
+            return False
+        equations, here = self.equations, self.base.orbit
+        last = equations.difference(here, self.behind.on_mesh(here.mesh))
+        new = equations.difference(orbit, here)
+        lengths = equations.norm(here.mesh, last) * equations.norm(here.mesh, new)
+        return equations.inner(here.mesh, last)(*_parts(new)) < -0.5 * lengths
 
     def _largest_step(self) -> float:
         """Arclength in which the orbit changes by `growth` or the speed by a step of the range."""
