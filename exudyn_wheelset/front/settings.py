@@ -1,7 +1,7 @@
 """Exudyn solver settings from files: the names of exudyn.SimulationSettings, only what differs.
 
     {"timeIntegration": {"numberOfSteps": 4000, "endTime": 2.0, "solverType": "RK44"},
-     "solution.writeSolutionToFile": false}
+     "solution.file.write": false}
 
 Nested objects and dotted names both work; enum values are given by name. An unknown name, a wrong
 type or a wrong enum value is a SettingsError that names the nearest right one.
@@ -25,7 +25,7 @@ def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.Simu
     """Return Exudyn's simulation settings with the entries of a file (or mapping) applied.
 
     Raises SettingsError for a file that cannot be read or is no JSON object, unknown names, wrong
-    types and unknown enum values.
+    types, unknown enum values and numbers outside Exudyn's range.
     """
     settings = exu.SimulationSettings()
     if source is None:
@@ -50,7 +50,12 @@ def apply_settings(
         *groups, last = name.split(".")
         for group in groups:
             target = getattr(target, group)
-        setattr(target, last, _converted(f"{origin}: {name}", value, known[name]))
+        converted = _converted(f"{origin}: {name}", value, known[name])
+        try:
+            setattr(target, last, converted)
+        except Exception as error:
+            reason = str(error).split(" (", 1)[0]
+            raise SettingsError(f"{origin}: {name} = {value!r}: {reason}") from error
 
 
 def changed_settings(settings: exu.SimulationSettings) -> dict[str, Any]:
