@@ -1,6 +1,6 @@
 """Measure what the pages under docs/decisions state: run it, read it beside the pages.
 
-    python docs/figures/measure_decisions.py [curvature] [loads] [frame] [calls]
+    python docs/figures/measure_decisions.py [curvature] [loads] [frame] [calls] [spin]
 
 Costs are ratios within one run; on a shared machine microseconds do not carry.
 """
@@ -28,7 +28,9 @@ from exudyn_wheelset import (
     contact_forces,
     contact_geometry,
     create_wheelset,
+    linearise,
 )
+from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
 
 REFERENCE = Path(__file__).parents[2] / "tests" / "reference" / "contact_forces_manchester_A22.csv"
 WHEELSET = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
@@ -176,8 +178,26 @@ def calls() -> None:
         print(f"{name:12s}{1e6 * taken:7.3f} us, {taken / base:5.1f} times one array")
 
 
+def spin() -> None:
+    """Least damped hunting root with and without the term of the frame that does not spin."""
+    model, speed = paper_wheelset(1, driven=False), 34.0
+    system = model.dynamic_system()
+    jacobian = linearise(system, speed).jacobian
+    names = system.state_names
+    wx, wz = (names.index(name) for name in ("wx [rad/s]", "wz [rad/s]"))
+    geometry = contact_geometry(model.wheelset, model.track, [0.0])
+    rate = speed / float(geometry.left.radius[0])
+    spinning = jacobian.copy()
+    spinning[wx, wz] -= rate
+    spinning[wz, wx] += rate
+    for name, matrix in (("frame without spin", jacobian), ("spinning frame", spinning)):
+        roots = np.linalg.eigvals(matrix)
+        pairs = roots[(roots.imag > 5.0) & (roots.imag < 50.0)]
+        print(f"{name}: {', '.join(f'{root:.3f}' for root in pairs)} 1/s at {speed:g} m/s")
+
+
 def main() -> None:
-    parts = {"curvature": curvature, "loads": loads, "frame": frame, "calls": calls}
+    parts = {"curvature": curvature, "loads": loads, "frame": frame, "calls": calls, "spin": spin}
     for name in sys.argv[1:] or parts:
         print(f"-- {name}")
         parts[name]()
