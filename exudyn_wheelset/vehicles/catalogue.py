@@ -1,0 +1,258 @@
+"""Vehicles by name, with the settings that an influence on hunting is usually asked of.
+
+`vehicle(name, ...)` gives a vehicle for every analysis; `CATALOGUE` says what each name stands for
+and between which speeds its Hopf point is looked for. Friction, creep law, gauge, wheel (or the
+conicity of a conical one), rail and its inclination may be changed where the vehicle has them.
+Lengths in m, forces in N, speeds in m/s.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import exudyn as exu
+
+from exudyn_wheelset.analyses.system import DynamicSystem
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.profiles import Profile, load_profile, shapes
+from exudyn_wheelset.vehicles import paper_wheelset as paper
+from exudyn_wheelset.vehicles.cooperrider_bogie import CooperriderBogie, cooperrider_system
+from exudyn_wheelset.vehicles.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.vehicles.truck import Truck, dtu_truck
+from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
+
+
+@dataclass(frozen=True)
+class Changes:
+    """What may be changed of a vehicle; None leaves the vehicle's own value.
+
+    friction [-]; creep: name of a law; gauge [m] between the rails, which sets the flange
+    clearance; wheel, rail: profile, name or path; conicity [-] of the tread: an AAR wheel of that
+    taper takes the wheel's place; inclination [-] of the rails.
+    """
+
+    friction: float | None = None
+    creep: str | None = None
+    gauge: float | None = None
+    wheel: Profile | str | None = None
+    rail: Profile | str | None = None
+    conicity: float | None = None
+    inclination: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.wheel is not None and self.conicity is not None:
+            raise WheelsetError("give a wheel or a conicity, not both")
+        if self.friction is not None and not 0.0 < self.friction <= 1.0:
+            raise WheelsetError(f"friction = {self.friction!r}: give a coefficient from 0 to 1")
+
+    def tread(self, own: str) -> Profile:
+        """The wheel profile to take where the vehicle's own is `own`."""
+        if self.conicity is not None:
+            return shapes.aar_1_20(taper=self.conicity)
+        return load_profile(own if self.wheel is None else self.wheel)
+
+    def given(self, *names: str) -> dict[str, Any]:
+        """Those of `names` that are changed, by name."""
+        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A name of the catalogue.
+
+    description    one line
+    searched       speeds [m/s] between which the first Hopf point lies
+    make           the vehicle with changes
+    changeable     what of `Changes` it has
+    """
+
+    description: str
+    searched: tuple[float, float]
+    make: Callable[[Changes], Any]
+    changeable: tuple[str, ...]
+
+
+def vehicle(name: str, **changes: Any) -> Any:
+    """The vehicle of a name of `CATALOGUE`, with `changes` (see Changes); for every analysis.
+
+    Raises WheelsetError for an unknown name, with the nearest one, and for a change that the
+    vehicle does not have.
+    """
+    known = entry(name)
+    asked = Changes(**changes)
+    for what in asked.given(*_ON_PROFILES):
+        if what not in known.changeable:
+            raise WheelsetError(
+                f"{name} has no {what} to change; it has {', '.join(known.changeable) or 'none'}"
+            )
+    return known.make(asked)
+
+
+def vehicle_system(
+    name: str, settings: exu.SimulationSettings | None = None, **changes: Any
+) -> DynamicSystem:
+    """The vehicle as a system; `settings` are Exudyn's, for its simulations.
+
+    Raises WheelsetError as `vehicle`, and for settings of a vehicle that is not in Exudyn.
+    """
+    found = vehicle(name, **changes)
+    if not isinstance(found, DynamicSystem):
+        return found.dynamic_system(settings=settings)
+    if settings is not None:
+        raise WheelsetError(f"{name} is not built in Exudyn: leave the solver settings out")
+    return found
+
+
+def entry(name: str) -> Entry:
+    """What a name stands for; raises WheelsetError for an unknown one, with the nearest."""
+    if name in CATALOGUE:
+        return CATALOGUE[name]
+    near = difflib.get_close_matches(name, CATALOGUE, n=1, cutoff=0.0)
+    raise WheelsetError(
+        f"vehicle {name!r} is unknown; the nearest is {near[0]!r} of {', '.join(CATALOGUE)}"
+    )
+
+
+def s1002_wheelset(
+    wheel: Profile | str = "S1002",
+    *,
+    longitudinal_stiffness: float = 1.6e6,
+    lateral_stiffness: float = 4.0e5,
+    **contact: Any,
+) -> WheelsetOnFrame:
+    """One wheelset of the Manchester benchmark coach, S1002 on UIC60, sprung softly to a frame.
+
+    Mass, inertia, radius, load, place, vertical stiffness and damping of the axle boxes are those
+    of vehicle 1 of the Manchester benchmarks (S. Iwnicki, Vehicle System Dynamics 30 (1998)
+    295-313). Its horizontal stiffnesses (31.4e6 and 3.9e6 N/m) steer a bogie, and hold a single
+    wheelset on a frame that does not move so firmly that it is stable up to 400 m/s; those
+    given here [N/m a side] are chosen for a critical speed of the order of a train's. contact:
+    arguments of `contact_parameters`; the creep law is Shen-Hedrick-Elkins', which is smooth at
+    zero creep.
+    """
+    body, frame, wheelset = 32000.0, 2615.0, 1813.0
+    return WheelsetOnFrame(
+        wheelset=Wheelset(wheelset, (1120.0, 112.0, 1120.0), radius=0.46, wheel=wheel),
+        track=Track("UIC60", gauge=1.435, inclination=1.0 / 40.0),
+        suspension=Suspension(
+            half_distance=1.0,
+            stiffness=(longitudinal_stiffness, lateral_stiffness, 1.22e6),
+            damping=(15.0e3, 2.0e3, 4.0e3),
+        ),
+        axle_load=9.81 * (0.25 * body + 0.5 * frame + wheelset),
+        contact={"creep": "shen-hedrick-elkins", "friction": 0.3, "damping": 1.0, **contact},
+        name="S1002 wheelset on UIC60",
+    )
+
+
+@dataclass(frozen=True)
+class Cooperrider:
+    """Kaas-Petersen's bogie as a vehicle to build: its description with `dynamic_system`."""
+
+    bogie: CooperriderBogie
+
+    def dynamic_system(self, **options: Any) -> DynamicSystem:
+        """The bogie as a system for all analyses; options are those of ExudynSystem."""
+        return cooperrider_system(self.bogie, **options)
+
+
+def _on_track(made: Any, changes: Changes) -> Any:
+    """A vehicle with its track changed."""
+    track = made.track
+    changed = {"gauge": track.gauge, "inclination": track.inclination}
+    changed |= changes.given("gauge", "inclination")
+    return replace(made, track=Track(changes.rail or track.rail, **changed))
+
+
+def _paper(spring_set: int) -> Callable[[Changes], Any]:
+    def make(changes: Changes) -> WheelsetOnFrame:
+        made = paper.paper_wheelset(
+            spring_set,
+            driven=False,
+            wheel=changes.tread(paper.WHEEL),
+            **changes.given("friction", "creep"),
+        )
+        return _on_track(made, changes)
+
+    return make
+
+
+def _paper_lateral(spring_set: int) -> Callable[[Changes], Any]:
+    def make(changes: Changes) -> LateralWheelset:
+        return paper.paper_lateral_wheelset(
+            "profiled",
+            spring_set,
+            free_spin=True,
+            parameters=paper_parameters(spring_set, **changes.given("friction")),
+            wheel=changes.tread(paper.WHEEL),
+            **changes.given("creep", "gauge", "rail", "inclination"),
+        )
+
+    return make
+
+
+def _s1002(changes: Changes) -> WheelsetOnFrame:
+    made = s1002_wheelset(wheel=changes.tread("S1002"), **changes.given("friction", "creep"))
+    return _on_track(made, changes)
+
+
+def _cooperrider(changes: Changes) -> Cooperrider:
+    bogie = replace(CooperriderBogie(), **changes.given("conicity"))
+    if changes.friction is not None:
+        bogie = replace(bogie, friction_force=changes.friction * COOPERRIDER_WHEEL_LOAD)
+    return Cooperrider(bogie)
+
+
+def _truck(changes: Changes) -> Truck:
+    made = dtu_truck(wheel=changes.tread("S1002"), **changes.given("friction", "creep"))
+    return _on_track(made, changes)
+
+
+# [N]: with it the source's friction of 0.15 gives its 10 kN a wheel.
+COOPERRIDER_WHEEL_LOAD = 10.0e3 / 0.15
+
+_ON_PROFILES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination")
+_PAPER_SEARCHED = {1: (10.0, 100.0), 2: (40.0, 200.0), 3: (100.0, 320.0)}
+
+CATALOGUE: dict[str, Entry] = {
+    **{
+        f"paper-{k}": Entry(
+            f"the paper's wheelset, spring set {k}, six degrees of freedom, free spin",
+            _PAPER_SEARCHED[k],
+            _paper(k),
+            _ON_PROFILES,
+        )
+        for k in (1, 2, 3)
+    },
+    **{
+        f"paper-lateral-{k}": Entry(
+            f"the paper's lateral model on profiles, spring set {k}, rolling freely",
+            _PAPER_SEARCHED[k],
+            _paper_lateral(k),
+            _ON_PROFILES,
+        )
+        for k in (1, 2, 3)
+    },
+    "s1002": Entry(
+        "a wheelset S1002 on UIC60 1:40, gauge 1435 mm, on soft springs to a frame",
+        (10.0, 150.0),
+        _s1002,
+        _ON_PROFILES,
+    ),
+    "cooperrider": Entry(
+        "Kaas-Petersen's bogie of Cooperrider",
+        (20.0, 120.0),
+        _cooperrider,
+        ("friction", "conicity"),
+    ),
+    "truck": Entry(
+        "two wheelsets S1002 on UIC60 1:40 and a frame, a truck of the DTU car",
+        (15.0, 150.0),
+        _truck,
+        _ON_PROFILES,
+    ),
+}
