@@ -47,7 +47,7 @@ def test_rates_satisfy_the_equation_of_the_massless_rail():
     side_forces(items.contact.evaluate(mbs), forces)
     stiffness = np.tile([elasticity.lateral_stiffness, elasticity.vertical_stiffness], 2)
     damping = np.tile([elasticity.lateral_damping, elasticity.vertical_damping], 2)
-    # The rates are the root of c d' + k d + F = 0, F of some 1e4 N; left over is Newton's last step.
+    # The rates are the root of c d' + k d + F = 0, F of some 1e4 N; Newton leaves its last step.
     np.testing.assert_allclose(damping * rates + stiffness * state[-4:] + forces, 0.0, atol=1e-2)
 
 

@@ -345,6 +345,7 @@ class ExudynSystem(DynamicSystem):
             self._data.SetODE2Coordinates(self.expand(shifted)[0])
             self._solver.ComputeMassMatrix(self.mbs)
             matrices.append(np.array(self._solver.GetSystemMassMatrix()))
+        self._check_axisymmetry(matrices[0])
         size = np.abs(matrices[0]).max()
         self._constant_mass = all(
             np.allclose(matrix, matrices[0], rtol=0.0, atol=1e-12 * size) for matrix in matrices[1:]
@@ -360,6 +361,18 @@ class ExudynSystem(DynamicSystem):
                 f"{self.name}: the mass matrix is singular (without mass: "
                 f"{', '.join(massless) or 'a combination of coordinates'}); give it a mass"
             ) from None
+
+    def _check_axisymmetry(self, mass: Array) -> None:
+        """Spinning bodies must look the same at every spin angle; AnalysisError otherwise."""
+        for first, _, spins in self._rotations:
+            inertia = mass[first : first + 3, first : first + 3]
+            size = abs(inertia[0, 0])
+            if spins and max(abs(inertia[0, 0] - inertia[2, 2]), abs(inertia[0, 2])) > 1e-6 * size:
+                raise AnalysisError(
+                    f"{self.name}: a body that spins about y has the inertia {inertia[0, 0]:g} "
+                    f"about x, but {inertia[2, 2]:g} kg m^2 about z: its equations then change "
+                    "with the spin angle and there is no steady run; give it Ix = Iz"
+                )
 
     def _use_speed(self, speed: float) -> None:
         if speed != self._speed:

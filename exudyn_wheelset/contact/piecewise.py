@@ -100,7 +100,7 @@ def piecewise_geometry(
     for cell in np.flatnonzero(moving > JUMP):
         jumps += _locate_jumps(wheelset, track, y[cell], y[cell + 1])
     breaks = [y[0], *jumps, y[-1]]
-    pieces, degrees, residuals = [], [], []
+    pieces, degrees, residuals, knots = [], [], [], []
     for low, high in pairwise(breaks):
         inner = y[(y > low + 0.5 * spacing) & (y < high - 0.5 * spacing)]
         # Beside a jump the contact moves fast: closer points there.
@@ -109,12 +109,17 @@ def piecewise_geometry(
         inner = inner[(inner > low + 1.1 * reach) & (inner < high - 1.1 * reach)]
         samples = np.unique(np.concatenate([low + closer, inner, high - closer]))
         exact = geometry_columns(contact_geometry(wheelset, track, samples))
-        curve, degree = _smooth_piece(
-            samples, exact, low, high, representation, tolerance, highest_degree
-        )
-        residuals.append(np.abs(curve(samples) - exact).max(axis=0))
-        pieces.append(curve)
-        degrees.append(degree)
+        if representation == "cubic":
+            spline = CubicSpline(samples, exact)
+            found = [(low, high, PPoly(spline.c, spline.x), 3, slice(None))]
+        else:
+            found = _polynomial_pieces(samples, exact, low, high, tolerance, highest_degree)
+        for start, _, curve, degree, part in found:
+            knots.append(start)
+            residuals.append(np.abs(curve(samples[part]) - exact[part]).max(axis=0))
+            pieces.append(curve)
+            degrees.append(degree)
+    breaks = [*knots, y[-1]]
     return PiecewiseGeometry(
         np.array(jumps), _join(pieces, breaks), tuple(degrees), np.array(residuals)
     )
@@ -144,19 +149,34 @@ def _locate_jumps(wheelset: Wheelset, track: Track, low: float, high: float) -> 
     ]
 
 
-def _smooth_piece(y, values, low, high, representation, tolerance, highest_degree):
-    if representation == "cubic":
-        spline = CubicSpline(y, values)
-        return PPoly(spline.c, spline.x), 3
-    for degree in range(1, highest_degree + 1):
-        piece = _polynomial_piece(y, values, low, high, tolerance, degree)
-        allowed = tolerance * np.array([1, 1, 100, 100, 100, 1, 100, 100, 100, 1])
-        if np.all(np.abs(piece(y) - values).max(axis=0) <= allowed):
-            break
-    return piece, degree
+def _polynomial_pieces(y, values, low, high, tolerance, highest_degree):
+    """Polynomials of the smallest degree that meets the tolerance: (low, high, PPoly, degree, part).
+
+    Where the highest degree does not (a kink, a steep flange), the piece is cut at its worst point,
+    as long as both halves have points enough.
+    """
+    allowed = tolerance * np.array([1, 1, 100, 100, 100, 1, 100, 100, 100, 1])
+    pending = [(low, high, slice(0, len(y)))]
+    done = []
+    while pending:
+        start, end, part = pending.pop()
+        for degree in range(1, min(highest_degree, part.stop - part.start - 1) + 1):
+            piece = _polynomial_piece(y[part], values[part], start, end, degree)
+            miss = np.abs(piece(y[part]) - values[part]) / allowed
+            if miss.max() <= 1.0:
+                break
+        least = highest_degree + 2
+        if miss.max() > 1.0 and part.stop - part.start >= 2 * least:
+            worst = part.start + int(np.argmax(miss.max(axis=1)))
+            cut = min(max(worst, part.start + least - 1), part.stop - least)
+            pending.append((y[cut], end, slice(cut, part.stop)))
+            pending.append((start, y[cut], slice(part.start, cut + 1)))
+        else:
+            done.append((start, end, piece, degree, part))
+    return done
 
 
-def _polynomial_piece(y, values, low, high, tolerance, degree):
+def _polynomial_piece(y, values, low, high, degree):
     """Least-squares polynomials on [low, high] as one PPoly piece."""
     coefficients = np.empty((degree + 1, 1, values.shape[1]))
     for column, samples in enumerate(values.T):
