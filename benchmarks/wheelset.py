@@ -114,7 +114,7 @@ def _seconds_per_step(mbs, steps: int = 20000) -> float:
 
 def exudyn_step() -> dict[str, float]:
     model = paper_wheelset(1, driven=False)
-    container, mbs, _ = model.build(30.0, sensors=False, show=False)
+    _container, mbs, _ = model.build(30.0, sensors=False, show=False)
     profiled = _seconds_per_step(mbs)
 
     def springs_only(with_loads: bool) -> float:

@@ -150,7 +150,7 @@ def _locate_jumps(wheelset: Wheelset, track: Track, low: float, high: float) -> 
 
 
 def _polynomial_pieces(y, values, low, high, tolerance, highest_degree):
-    """Polynomials of the smallest degree that meets the tolerance: (low, high, PPoly, degree, part).
+    """Polynomials of the smallest degree in tolerance: (low, high, PPoly, degree, part of y).
 
     Where the highest degree does not (a kink, a steep flange), the piece is cut at its worst point,
     as long as both halves have points enough.
