@@ -59,7 +59,7 @@ class Rolling:
 
         rigid = contact_geometry(self.wheelset, self.track, [shift], yaw)
         start = [1e4 * (rigid.z[0] - 8e-5), 1e4 * rigid.roll[0]]
-        z, roll = 1e-4 * fsolve(imbalance, start, xtol=1e-12)
+        z, roll = 1e-4 * fsolve(imbalance, start, xtol=1e-9)
         turn = Rotation.from_euler("ZXY", [yaw, roll, 0.0])
         return np.array([0.0, shift, RADIUS + z - self.reference, *turn.as_rotvec()])
 
