@@ -170,7 +170,7 @@ def test_branch_continues_from_its_file(tmp_path):
     first = limit_cycles(normal_form(), hopf_points(normal_form(), -0.45, 0.5)[0], (-0.45, 0.1))
     loaded = Branch.load(first.save(tmp_path / "part.npz"))
     more = limit_cycles(normal_form(), loaded.orbits[-1], (0.05, 0.5))
-    square = np.sum(more.states ** 2, axis=1)
+    square = np.sum(more.states**2, axis=1)
     np.testing.assert_allclose(more.speed, square**2 - square, atol=1e-7)
     assert more.speed.max() == pytest.approx(0.5)
 

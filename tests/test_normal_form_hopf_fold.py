@@ -101,7 +101,7 @@ def test_from_a_simulated_state_both_ends_are_found():
     assert branch.folds[0] == pytest.approx(-0.25, abs=1e-6)
     first, last = branch.reason.split("; ")
     assert "Hopf point" in first and "upper end" in last
-    square = np.sum(branch.states ** 2, axis=1)
+    square = np.sum(branch.states**2, axis=1)
     np.testing.assert_allclose(branch.speed, square**2 - square, atol=1e-7)
 
 
@@ -112,7 +112,7 @@ def test_supercritical_branch_has_no_fold_and_starts_stable():
     assert result == pytest.approx(0.0, abs=1e-6)
     assert "supercritical" in result.how
     assert result.branch.folds == []
-    square = np.sum(result.branch.states ** 2, axis=1)
+    square = np.sum(result.branch.states**2, axis=1)
     np.testing.assert_allclose(result.branch.speed, square + square**2, atol=1e-7)
     assert np.all(result.branch.stable)
 

@@ -107,6 +107,19 @@ def _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes
     )  # fmt: skip
 
 
+@njit(cache=True, error_model="numpy")
+def _merged_integrals(
+    table, side, k, other, deepest, centre, along, cy, cz, lx, ly, lz, lobes
+):  # fmt: skip
+    """Integrals over the zones of two merging lobes, with the displacement at lobe `centre`."""
+    origin = lobes[centre, LOBE_ARC]
+    first, second = _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes)
+    more, further = _integrals(
+        table, side, other, deepest, origin, along, cy, cz, lx, ly, lz, lobes
+    )
+    return first + more, second + further
+
+
 @njit(cache=True, error_model="numpy", inline="always")
 def _unit(y, z):
     length = math.sqrt(y * y + z * z)
@@ -216,16 +229,18 @@ def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes
                 whole, deepest, merged_radius, mz, parameters
             )
             if virtual:
-                origin = lobes[k if depth == deepest else other, LOBE_ARC]
                 along = 0.5 * mz / merged_radius
-                first, second = _integrals(
-                    table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes
+                # The displacement is taken at either lobe's deepest point: at one of them only, a
+                # step would follow when the other becomes the deeper.
+                first, second = _merged_integrals(
+                    table, side, k, other, deepest, k, along, cy, cz, lx, ly, lz, lobes
                 )
-                more, further = _integrals(
-                    table, side, other, deepest, origin, along, cy, cz, lx, ly, lz, lobes
+                _, further = _merged_integrals(
+                    table, side, k, other, deepest, other, along, cy, cz, lx, ly, lz, lobes
                 )
+                second = 1.0 / (share / second + (1.0 - share) / further)
                 merged_force, merged_a, merged_b = _virtual_ellipse(
-                    first + more, second + further, whole, deepest, merged_radius, mz, parameters
+                    first, second, whole, deepest, merged_radius, mz, parameters
                 )
             rest = (1.0 - separation) * share
             # A share stands where the whole patch does, with the weight of the force it brings.

@@ -194,14 +194,26 @@ def _join(pieces: list[PPoly], breaks: list[float]) -> PPoly:
     cells, knots = [], [breaks[0]]
     for piece, low, high in zip(pieces, breaks[:-1], breaks[1:], strict=True):
         inner = piece.x[(piece.x > low) & (piece.x < high)]
-        starts = np.concatenate([[low], inner])
-        block = np.zeros((degree, len(starts), piece.c.shape[2]))
-        for cell, start in enumerate(starts):
-            for power in range(piece.c.shape[0]):
-                scale = 1.0
-                for k in range(2, power + 1):
-                    scale *= k
-                block[degree - 1 - power, cell] = piece(start, nu=power) / scale
-        cells.append(block)
+        cells.append(_cells(piece, np.concatenate([[low], inner]), degree))
         knots.extend([*inner, high])
     return PPoly(np.concatenate(cells, axis=1), np.array(knots))
+
+
+def _cells(piece: PPoly, starts: np.ndarray, degree: int) -> np.ndarray:
+    """Coefficients of a PPoly about new starts of cells, Taylor's formula."""
+    block = np.zeros((degree, len(starts), piece.c.shape[2]))
+    factorial = 1.0
+    for power in range(piece.c.shape[0]):
+        factorial *= max(power, 1)
+        block[degree - 1 - power] = piece(starts, nu=power) / factorial
+    return block
+
+
+def with_short_cells(curves: PPoly, longest: float) -> PPoly:
+    """The same functions in cells of at most `longest` [m]."""
+    starts = [
+        np.linspace(low, high, int(np.ceil((high - low) / longest)), endpoint=False)
+        for low, high in pairwise(curves.x)
+    ]
+    knots = np.concatenate(starts)
+    return PPoly(_cells(curves, knots, curves.c.shape[0]), np.append(knots, curves.x[-1]))

@@ -50,7 +50,7 @@ class ContactSide:
 
     wheel_y [m] from the tape circle; rail_y [m] from the rail's highest point; angle [rad] of the
     contact plane, positive where it falls towards the track centre; radius [m] rolling radius;
-    lead [m] how far ahead of the axle the contact lies; second_wheel_y, second_rail_y [m] and
+    lead [m] x of the contact from the axle's centre; second_wheel_y, second_rail_y [m] and
     second_gap [m]: the next local minimum of the distance and its remaining gap (NaN if none), a
     double-point contact where the gap is zero.
     """

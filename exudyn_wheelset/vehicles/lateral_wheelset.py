@@ -20,7 +20,7 @@ import numpy as np
 from exudyn_wheelset.analyses.system import DynamicSystem
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
-from exudyn_wheelset.contact.piecewise import piecewise_geometry
+from exudyn_wheelset.contact.piecewise import piecewise_geometry, with_short_cells
 from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
@@ -191,7 +191,7 @@ class LateralWheelset(DynamicSystem):
             half_range=self.half_range,
             representation=self.representation,
         )
-        curves = pieces.curves
+        curves = with_short_cells(pieces.curves, 1.0e-4)
         cells = len(curves.x) - 1
         table = np.zeros((curves.c.shape[0], cells, kernel.COLUMN_COUNT))
         table[:, :, 0:2] = curves.c[:, :, 0:2]
@@ -203,7 +203,7 @@ class LateralWheelset(DynamicSystem):
             wheel_y, radius = curves.c[:, :, start], curves.c[:, :, start + 3]
             table[:, :, base] = wheel_y
             table[:, :, base + 1] = radius
-            # Within a cell of 0.05 mm slope and curvature are straight lines.
+            # Within a cell of 0.1 mm slope and curvature are straight lines.
             ends = curves(np.stack([curves.x[:-1], curves.x[1:]]))
             slopes = -self.wheelset.wheel.slope(ends[:, :, start])
             table[-1, :, base + 2] = slopes[0]
