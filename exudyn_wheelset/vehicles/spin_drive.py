@@ -15,9 +15,7 @@ from exudyn.utilities import LoadTorqueVector
 from exudyn_wheelset.coupling.create import WheelsetItems
 
 
-def create_spin_drive(
-    mbs: Any, items: WheelsetItems, radius: float, damping: float = 1.0e6
-) -> int:
+def create_spin_drive(mbs: Any, items: WheelsetItems, radius: float, damping: float = 1.0e6) -> int:
     """Hold the spin of a wheelset at (speed of its moving frame)/radius; return the load number.
 
     radius r0 [m]; damping [N m s/rad] of the drive about the axle, body axes: with 1e6 a creep

@@ -114,6 +114,9 @@ class WheelsetOnFrame:
 
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
+        if self.driven and "settings" not in options:
+            # The drive's rate of some 8e3 1/s is beyond RK44 at ExudynSystem's own step.
+            options.setdefault("step", 1.0e-4)
         container, mbs, items = self.build(20.0, sensors=False, show=False)
         rolling = self.wheelset.radius
         if not self.driven:
