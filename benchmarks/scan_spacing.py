@@ -42,9 +42,7 @@ def forces(wheelset: Wheelset, track: Track, spacing: float, y: np.ndarray) -> n
 def main() -> None:
     wheelset = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
     y = np.linspace(0.0, 8.5e-3, 1000)
-    print(
-        "inclination  spacing [mm]  change in 99 % [%]  at worst [%]  other patch count [% of shifts]"
-    )
+    print("inclination  spacing [mm]  change in 99 % [%]  at worst [%]  other patch count [%]")
     for inclination in (1 / 40, 1 / 20):
         track = Track(rail="UIC60", inclination=inclination)
         finest = forces(wheelset, track, SPACINGS[0], y)
