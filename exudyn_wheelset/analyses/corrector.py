@@ -73,6 +73,7 @@ def solve_orbit(
         apart = equations.difference(orbit, reference)
         along = row(moved.orbit, moved.period, moved.speed)
         values = [-phase(apart.orbit, 0.0, 0.0), target - along]
+        assert condensed is not None
         raw = condensed.solve(defects, [phase, row], values)
         return raw, equations.norm(mesh, raw)
 
