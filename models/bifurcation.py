@@ -50,7 +50,7 @@ from exudyn_wheelset.vehicles.catalogue import CATALOGUE, entry, vehicle_system
 
 matplotlib.use("Agg")
 
-CHANGES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination")
+CHANGES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination", "damping")
 # Ends of the branch, in Hopf speeds.
 RANGE = (0.5, 1.3)
 # Unit in which a displacement is drawn, by the unit in its name.
@@ -415,6 +415,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("--rail", help="rail profile, name or file")
     made.add_argument("--conicity", type=float, help="taper of the tread of an AAR wheel")
     made.add_argument("--inclination", type=float, help="inclination of the rails (0.025 is 1:40)")
+    made.add_argument("--damping", type=float, help="damping of the normal contact [s/m]")
     made.add_argument(
         "--redraw",
         type=Path,
