@@ -104,3 +104,11 @@ def test_order_of_convergence(creep_x, creep_y, spin):
     # asked: one; the closed form of the slip zone makes it about two (less where the grid
     # happens to fit the zones)
     assert order > 1.4
+
+
+def test_grid_sets_cells_along_and_across():
+    state = (1e-3, 5e-4, 0.2, 5e-3, 4e-3, 6e4, 0.3, 82e9, 0.28)
+    both = creep_force("fastsim", *state, cells_along=24, cells_across=24)
+    assert creep_force("fastsim", *state, grid=24) == both
+    finer_along = creep_force("fastsim", *state, cells_along=30, cells_across=24)
+    assert creep_force("fastsim", *state, grid=24, cells_along=30) == finer_along

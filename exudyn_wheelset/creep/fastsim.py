@@ -52,6 +52,7 @@ LAW = CreepLaw(
             "flexibilities", 1.0, 1.0, 3.0, "1: one for all, 3: one each for xi_x, xi_y, phi"
         ),
     ),
+    {"grid": ("cells_along", "cells_across")},
 )
 
 

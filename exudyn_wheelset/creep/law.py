@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -24,13 +26,24 @@ class CreepParameter:
 class CreepLaw:
     """A creep law as `creep_kernel` knows it.
 
-    `number` selects the law in compiled code; `parameters` are in the order of its array.
+    `number` selects the law in compiled code; `parameters` are in the order of its array;
+    `shorthands` are names that set several parameters at once.
     """
 
     name: str
     number: int
     source: str
     parameters: tuple[CreepParameter, ...] = ()
+    shorthands: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def expand(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """Parameters by their own names, shorthands replaced; a name given itself goes before."""
+        expanded: dict[str, Any] = {}
+        for name, value in parameters.items():
+            for own in self.shorthands.get(name, ()):
+                expanded.setdefault(own, value)
+        own_names = {k: v for k, v in parameters.items() if k not in self.shorthands}
+        return {**expanded, **own_names}
 
     def index(self, parameter: str) -> int:
         """Give the place of a parameter in the law's array; KeyError if there is none."""

@@ -177,6 +177,7 @@ def creep_parameters(law: str, **parameters: float) -> NDArray:
     an unknown parameter or a value outside its range.
     """
     description = creep_law(law)
+    parameters = description.expand(parameters)
     _check_names(description, parameters)
     values = np.array([p.default for p in description.parameters])
     for name, value in parameters.items():
@@ -209,6 +210,7 @@ def creep_force(
     Raises WheelsetError for an unknown law or parameter and for values out of range or not finite.
     """
     description = creep_law(law)
+    parameters = description.expand(parameters)
     _check_names(description, parameters)
     given = {
         "creep_x": creep_x,
