@@ -31,7 +31,8 @@ from multiprocessing import get_context  # noqa: E402
 from exudyn_wheelset.analyses.descent import quasi_static_descent  # noqa: E402
 from exudyn_wheelset.analyses.limit_cycles import limit_cycles  # noqa: E402
 from exudyn_wheelset.analyses.linear import linear_critical_speed  # noqa: E402
-from exudyn_wheelset.analyses.system import DynamicSystem, as_system  # noqa: E402
+from exudyn_wheelset.analyses.system import DynamicSystem  # noqa: E402
+from exudyn_wheelset.contact.descriptions import Track, Wheelset  # noqa: E402
 from exudyn_wheelset.vehicles.cooperrider_bogie import (  # noqa: E402
     CooperriderBogie,
     cooperrider_system,
@@ -39,14 +40,22 @@ from exudyn_wheelset.vehicles.cooperrider_bogie import (  # noqa: E402
 from exudyn_wheelset.vehicles.cooperrider_reference import (  # noqa: E402
     cooperrider_reference_system,
 )
+from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame  # noqa: E402
 
 RESOLUTION = 0.1
 
 
 def _wheelset() -> DynamicSystem:
-    from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
-
-    return as_system(paper_wheelset(1))
+    """New S1002 wheels on UIC60 rails 1:40, 12 t axle load, soft springs to the frame."""
+    vehicle = WheelsetOnFrame(
+        Wheelset(mass=1500.0, inertia=(800.0, 120.0, 800.0), radius=0.46, wheel="S1002"),
+        Track(rail="UIC60"),
+        Suspension(half_distance=1.0, stiffness=(4e5, 4e5, 1e5), damping=(2e3, 2e3, 1e3)),
+        axle_load=120e3,
+        contact={"damping": 1.0, "friction": 0.3},
+    )
+    # Flange impacts ask for shorter steps than the tread, in simulation alone.
+    return vehicle.dynamic_system(step=2e-4)
 
 
 VEHICLES: dict[str, Callable[[], DynamicSystem]] = {

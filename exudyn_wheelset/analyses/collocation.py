@@ -28,10 +28,9 @@ from exudyn_wheelset.analyses.orbit import Orbit, OrbitError, basis_of, windows_
 from exudyn_wheelset.analyses.system import DIFFERENCE_STEP, Array, DynamicSystem
 from exudyn_wheelset.errors import WheelsetError
 
-# One-sided difference step in scales, a micrometre for a wheelset. Contact on real profiles jumps
-# from place to place with a small jump of the force; a finer difference would make a large slope
-# of it and throw Newton off. A smooth f loses 1e-3 of its slope by it, with opposite signs in the
-# two halves of a symmetric orbit. Defects are exact, so orbits and folds do not move.
+# One-sided difference step in scales, ten nanometres for a wheelset: above what a contact search
+# resolves, below what bends the slope of a smooth f. Defects are exact, so orbits and folds do not
+# move with it.
 FORWARD_STEP = 1e-5
 
 
@@ -251,12 +250,12 @@ class Collocation:
             by_state = self._forward_differences(states, orbit.speed, rates)
         else:
             by_state = self._jacobians(states, orbit.speed)
-        by_speed = self._along_speed(states, orbit.speed, by_state)
+        by_speed = self._along_speed(states, orbit.speed, rates, by_state)
         basis = basis_of(orbit.degree)
         phases = orbit.mesh[:-1, None] + np.diff(orbit.mesh)[:, None] * basis.gauss
         return Gradients(phases.ravel(), rates, by_state, by_speed)
 
-    def _along_speed(self, states: Array, speed: float, by_state: Array) -> Array:
+    def _along_speed(self, states: Array, speed: float, rates: Array, by_state: Array) -> Array:
         """df/dV at states (k, n), consistent with their Jacobians.
 
         Speed and the spin of a wheelset shift the creepage by thousands of times what a joint
@@ -266,11 +265,10 @@ class Collocation:
         """
         step = DIFFERENCE_STEP * max(1.0, abs(speed))
         carry = self.system.carry_over
-        upper = np.array([carry(state, speed, speed + step) for state in states])
-        lower = np.array([carry(state, speed, speed - step) for state in states])
-        change = self._rates(upper, speed + step) - self._rates(lower, speed - step)
-        carried = (upper - lower) / (2.0 * step) / self.scales
-        return change / (2.0 * step) - np.einsum("kij,kj->ki", by_state, carried)
+        ahead = np.array([carry(state, speed, speed + step) for state in states])
+        change = self._rates(ahead, speed + step) - rates
+        carried = (ahead - states) / self.scales
+        return (change - np.einsum("kij,kj->ki", by_state, carried)) / step
 
     def assemble(self, orbit: Orbit, gradients: Gradients) -> Condensed:
         """Newton's equations from gradients given at the Gauss points of the orbit.

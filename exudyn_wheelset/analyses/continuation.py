@@ -56,7 +56,7 @@ class ContinuationSettings:
 
     intervals: int = INTERVALS
     degree: int = DEGREE
-    maximum_intervals: int = 80
+    maximum_intervals: int = 60
     accuracy: float = 0.1
     tolerance: float = 1e-8
     roughness: float = 1e-3

@@ -115,7 +115,9 @@ def gather(
     folds: list[Fold] = []
     for index, point in enumerate(points):
         if point.is_fold:
-            beside = points[index - 1 if index else index + 1].orbit.speed
+            around = points[max(0, index - 1) : index + 2]
+            near = np.array([other.orbit.speed for other in around])
+            beside = near[np.argmax(np.abs(near - point.orbit.speed))]
             folds.append(
                 Fold(
                     float(point.orbit.speed),
