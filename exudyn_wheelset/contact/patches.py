@@ -10,6 +10,7 @@ them disappears. With the separation s (search.py), the patch of lobe j carries
 where B_merged belongs to the zone over both lobes and share_j to lobe j's part of it; creep force,
 ellipse and position are blended alike (a share of a merged patch stands at that patch's place and
 has its share of that patch's creep force). So a lobe enters and leaves without a step in force.
+Two lobes that have merged wholly (s = 0) are one patch.
 
 Frame: track frame, left side.
 """
@@ -173,10 +174,14 @@ def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes
             deepest = max(deepest, lobes[k + 1, LOBE_PENETRATION])
         _lobe_moments(table, side, k, deepest, OWN, cy, cz, lx, ly, lz, lobes)
     merging = parameters[NORMAL] != HERTZ_LOCAL
+    one_patch = merging and count == 2 and lobes[0, LOBE_SEPARATION] == 0.0
     kept = 0
     for k in range(count):
         zone = lobes[k, OWN]
-        if zone <= 0.0:
+        if one_patch:
+            if lobes[k, LOBE_PENETRATION] < lobes[1 - k, LOBE_PENETRATION] or kept > 0:
+                continue
+        elif zone <= 0.0:
             continue
         depth = lobes[k, LOBE_PENETRATION]
         place = lobes[k, OWN + 1] / zone
@@ -242,6 +247,8 @@ def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes
                 merged_force, merged_a, merged_b = _virtual_ellipse(
                     first, second, whole, deepest, merged_radius, mz, parameters
                 )
+            if one_patch:
+                share = 1.0
             rest = (1.0 - separation) * share
             # A share stands where the whole patch does, with the weight of the force it brings.
             weight = rest * merged_force / max(separation * force + rest * merged_force, 1.0e-30)
