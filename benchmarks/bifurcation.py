@@ -85,12 +85,23 @@ def measure_vehicle(name: str) -> dict[str, Any]:
         "right_hand_sides": branch.record["cost"]["right_hand_sides"],
         "microseconds_per_right_hand_side": _right_hand_side(system, hopf),
     }
-    top, bottom = 1.05 * hopf.speed, 0.7 * hopf.speed
+    # From the cycle that ends at the lowest fold, a little above the linear speed.
+    lowest = min(branch.folds).index if branch.folds else 0
+    later = [i for i in range(lowest, len(branch)) if branch.stable[i]]
+    start = branch.orbits[min(later, key=lambda i: abs(branch.speed[i] - 1.05 * hopf.speed))]
     for label, step in (("steps", RESOLUTION), ("bisection", 0.01 * hopf.speed)):
         begun = time.perf_counter()
-        descent = quasi_static_descent(system, top, bottom, step=step, tolerance=RESOLUTION)
+        descent = quasi_static_descent(
+            system,
+            float(start.speed),
+            0.7 * hopf.speed,
+            step=step,
+            tolerance=RESOLUTION,
+            state=start.states[0],
+        )
         result[f"descent_by_{label}_seconds"] = time.perf_counter() - begun
         result[f"descent_by_{label}_speed"] = descent.speed
+        result[f"descent_by_{label}_reason"] = descent.reason
         result[f"descent_by_{label}_simulated_seconds"] = descent.time
         result[f"ratio_to_descent_by_{label}"] = result[f"descent_by_{label}_seconds"] / seconds
     return result
