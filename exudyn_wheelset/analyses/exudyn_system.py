@@ -21,6 +21,11 @@ from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.analyses.exudyn_layout import lay_out
+from exudyn_wheelset.analyses.exudyn_running import (
+    QuietExudyn,
+    copied_settings,
+    failure_words,
+)
 from exudyn_wheelset.analyses.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.analyses.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.errors import AnalysisError
@@ -88,7 +93,7 @@ class ExudynSystem(DynamicSystem):
         self._container = SC
         self._set_speed = set_speed
         self._speed: float | None = None
-        self._settings = _copy_settings(settings)
+        self._settings = copied_settings(settings)
         integration = self._settings.timeIntegration
         if step is None:
             step = DEFAULT_STEP
@@ -173,7 +178,7 @@ class ExudynSystem(DynamicSystem):
                 solver.ComputeMassMatrix(mbs)
                 self._inverse_mass = np.linalg.inv(solver.GetSystemMassMatrix())
         except Exception as error:
-            raise AnalysisError(f"{self.name}: {_reason(error)}") from error
+            raise AnalysisError(f"{self.name}: {failure_words(error)}") from error
         rate = np.empty(self.scales.shape[0])
         state_rate(state, force, self._inverse_mass, self._position_of, self._rotations, rate)
         return rate
@@ -310,16 +315,16 @@ class ExudynSystem(DynamicSystem):
             self._sensors.append((node, sensors[0], sensors[-1]))
 
     def _initialise_solver(self) -> None:
-        settings = _copy_settings(self._settings)
+        settings = copied_settings(self._settings)
         settings.solution.sensors.active = False
         solver: Any = exu.MainSolverImplicitSecondOrder()
         try:
-            with _Quiet():
+            with QuietExudyn():
                 solver.InitializeSolver(self.mbs, settings)
         except Exception as error:
             raise AnalysisError(
                 f"{self.name}: the model cannot be evaluated in its initial configuration at "
-                f"{FIRST_SPEED:g} m/s: {_reason(error)}"
+                f"{FIRST_SPEED:g} m/s: {failure_words(error)}"
             ) from error
         self._solver = solver
         self._order2 = solver.GetODE2size()
@@ -400,13 +405,13 @@ class ExudynSystem(DynamicSystem):
             data.SetODE2Coordinates_t(velocities, initial)
             if self._order1:
                 data.SetODE1Coordinates(np.asarray(state)[-self._order1 :], initial)
-            with _Quiet():
+            with QuietExudyn():
                 success = self.mbs.SolveDynamic(
                     settings, solverType=self._solver_type, showHints=False
                 )
             return None if success else "Exudyn's solver did not converge"
         except Exception as error:
-            return _reason(error)
+            return failure_words(error)
         finally:
             data.SetODE2Coordinates(kept[0], initial)
             data.SetODE2Coordinates_t(kept[1], initial)
@@ -443,36 +448,8 @@ class ExudynSystem(DynamicSystem):
         return states
 
 
-class _Quiet:
-    """Keeps Exudyn's messages off the console: a run that fails is reported by the exception."""
-
-    def __enter__(self) -> None:
-        config: Any = exu.config
-        self._kept = (config.suppressWarnings, config.printToConsole)
-        config.suppressWarnings, config.printToConsole = True, False
-
-    def __exit__(self, *_: object) -> None:
-        config: Any = exu.config
-        config.suppressWarnings, config.printToConsole = self._kept
-
-
 def _as_mapping(entries: Sequence[int] | Mapping[int, float]) -> Mapping[int, float]:
     """Entries with a number each, 0 where none is given."""
     if isinstance(entries, Mapping):
         return {int(key): float(value) for key, value in entries.items()}
     return {int(key): 0.0 for key in entries}
-
-
-def _copy_settings(settings: exu.SimulationSettings | None) -> exu.SimulationSettings:
-    copy = exu.SimulationSettings()
-    if settings is not None:
-        copy.SetDictionary(settings.GetDictionary())
-    copy.solution.file.write = False
-    copy.timeIntegration.verboseMode = 0
-    return copy
-
-
-def _reason(error: Exception) -> str:
-    """The line of an exception that names the cause, without Exudyn's trace."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return " ".join(lines[:2]) if lines else type(error).__name__
