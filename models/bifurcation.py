@@ -12,7 +12,7 @@ only its numbers:
     points, seconds, reason   orbits on the branch, time of the continuation, why the branch ends
 
 `--descent` adds hunting simulated at falling speed down to its jump, `--disturbance` the smallest
-one-off lateral disturbance that leads to hunting; both come onto the same figure. The figure shows
+one-off disturbance, in the shape of hunting, that goes on; both come onto the same figure. It shows
 the unstable branch dashed: a motion that stays below it dies out, one beyond it hunts.
 
 Figure and data land under `--out`, named after the vehicle and what was changed of it. The data
@@ -34,6 +34,7 @@ import matplotlib
 import numpy as np
 
 from exudyn_wheelset.analyses.branch import Branch, column_index
+from exudyn_wheelset.analyses.continuation import ContinuationSettings
 from exudyn_wheelset.analyses.descent import Descent, quasi_static_descent
 from exudyn_wheelset.analyses.disturbance import CriticalDisturbances, critical_disturbance
 from exudyn_wheelset.analyses.limit_cycles import limit_cycles
@@ -53,6 +54,8 @@ matplotlib.use("Agg")
 CHANGES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination", "damping")
 # Ends of the branch, in Hopf speeds.
 RANGE = (0.5, 1.3)
+# What disturbance runs disturb: the shape of the critical mode, measured by the displacement.
+SHAPE = "shape of the critical mode"
 # Unit in which a displacement is drawn, by the unit in its name.
 DRAWN = {"m": ("mm", 1e3), "rad": ("mrad", 1e3)}
 
@@ -90,12 +93,27 @@ def follow(
 ) -> Branch:
     """The branch from a Hopf point inside `speeds` [m/s], default 0.5 and 1.3 times the point's.
 
-    about: what else is to stand in the branch's record; settings: of ContinuationSettings.
+    Where Newton's method fails on the default number of intervals, the branch is followed once
+    more on half as many again, and the longer one is kept. about: what else is to stand in the
+    branch's record; settings: of ContinuationSettings.
     """
     low, high = speeds or (RANGE[0] * hopf.speed, RANGE[1] * hopf.speed)
     branch = limit_cycles(system, hopf, (low, high), progress=progress, **settings)
+    if branch.reason.startswith("no convergence") and "intervals" not in settings:
+        finer = {**settings, "intervals": 3 * ContinuationSettings().intervals // 2}
+        other = limit_cycles(system, hopf, (low, high), progress=progress, **finer)
+        branch = max(branch, other, key=len)
     shown = system.state_names[watched_index(system)]
     return replace(branch, record={**branch.record, "displacement": shown, **(about or {})})
+
+
+def lateral_mode(system: DynamicSystem, hopf: CriticalPoint) -> np.ndarray:
+    """The shape (n,) of hunting at a Hopf point when its watched displacement is at its peak of 1.
+
+    A disturbance of this shape, times an amplitude in m, is a hunting motion from the start.
+    """
+    mode = np.asarray(hopf.mode)
+    return np.real(mode / mode[watched_index(system)])
 
 
 def disturbed_speeds(branch: Branch, count: int = 4) -> np.ndarray:
@@ -103,6 +121,10 @@ def disturbed_speeds(branch: Branch, count: int = 4) -> np.ndarray:
     if branch.hopf is None or not np.any(branch.stable):
         return np.empty(0)
     low, high = branch.lowest_stable()[0], branch.hopf[0]
+    # Small limit cycles beside a supercritical Hopf point are not what a disturbance leads to.
+    first = branch.folds[0].index if branch.folds else len(branch)
+    if np.any(branch.stable[:first]):
+        high = min(high, float(branch.speed[:first].min()))
     if high - low < 1e-3 * high:
         return np.empty(0)
     return low + (high - low) * (np.arange(count) + 0.5) / count
@@ -159,14 +181,14 @@ def draw_diagram(
             label="disturbance runs: where motions part",
             zorder=5,
         )
-        if runs.direction == name:
+        if runs.direction == f"{SHAPE}, {name}":
             axes.plot(
                 runs.speeds,
                 factor * runs.critical,
                 "+",
                 color="C4",
                 markersize=8,
-                label="disturbance runs: smallest offset that leads to hunting",
+                label="disturbance runs: smallest disturbance that hunts",
                 zorder=5,
             )
     axes.set_ylim(bottom=0.0)
@@ -296,34 +318,57 @@ def _compute(arguments: argparse.Namespace) -> dict[str, Any]:
     files = []
     if branch is not None:
         files.append(branch.save(arguments.out / f"{stem}.npz"))
-    interrupted = numbers["reason"].startswith("interrupted")
-    low, high = arguments.speeds or (RANGE[0] * hopf.speed, RANGE[1] * hopf.speed)
-    if arguments.descent and not interrupted:
-        descent = quasi_static_descent(
-            system,
-            high,
-            low,
-            step=arguments.step or 0.02 * hopf.speed,
-            state_file=arguments.out / f"{stem}_descent.npz",
-            progress=progress,
-        )
-        files.append(arguments.out / f"{stem}_descent.npz")
-        numbers["descent"] = {"speed": float(descent.speed), "reason": descent.reason}
-    if arguments.disturbance is not None and branch is not None and not interrupted:
-        speeds = np.asarray(arguments.disturbance or disturbed_speeds(branch))
-        numbers["disturbance"] = {"speeds": speeds, "critical": []}
-        if len(speeds):
-            watched = system.state_names[watched_index(system)]
-            largest = 1.5 * float(branch.amplitude[watched].max())
-            runs = critical_disturbance(
-                system, speeds, largest, direction=watched, tolerance=0.02, progress=progress
-            )
-            files.append(runs.save(arguments.out / f"{stem}_disturbance.npz"))
-            numbers["disturbance"] = {"speeds": runs.speeds, "critical": runs.critical}
+        if not numbers["reason"].startswith("interrupted"):
+            files += _simulate(arguments, system, hopf, branch, numbers, stem)
     write_json(arguments.out / f"{stem}.json", numbers, **about, system=system.measures())
     if files:
         draw(arguments.out / f"{stem}.png", read(files), _title(system.name, changes))
     return numbers
+
+
+def _simulate(
+    arguments: argparse.Namespace,
+    system: DynamicSystem,
+    hopf: CriticalPoint,
+    branch: Branch,
+    numbers: dict[str, Any],
+    stem: str,
+) -> list[Path]:
+    """Descent and disturbance runs as asked for; their data files. Adds to `numbers`."""
+    files = []
+    watched = system.state_names[watched_index(system)]
+    largest = 1.05 * float(branch.amplitude[watched].max())
+    shape = lateral_mode(system, hopf)
+    low, high = arguments.speeds or (RANGE[0] * hopf.speed, RANGE[1] * hopf.speed)
+    if arguments.descent:
+        path = arguments.out / f"{stem}_descent.npz"
+        descent = quasi_static_descent(
+            system,
+            high,
+            low,
+            step=arguments.step or 0.005 * hopf.speed,
+            state=system.equilibrium(high) + largest * shape,
+            state_file=path,
+            progress=not arguments.json,
+        )
+        files.append(path)
+        numbers["descent"] = {"speed": float(descent.speed), "reason": descent.reason}
+    if arguments.disturbance is not None:
+        speeds = np.asarray(arguments.disturbance or disturbed_speeds(branch))
+        numbers["disturbance"] = {"speeds": speeds, "critical": []}
+        if len(speeds):
+            runs = critical_disturbance(
+                system,
+                speeds,
+                1.4 * largest,
+                direction=shape,
+                tolerance=0.005,
+                progress=not arguments.json,
+            )
+            runs = replace(runs, direction=f"{SHAPE}, {watched}")
+            files.append(runs.save(arguments.out / f"{stem}_disturbance.npz"))
+            numbers["disturbance"] = {"speeds": runs.speeds, "critical": runs.critical}
+    return files
 
 
 def _redraw(arguments: argparse.Namespace) -> dict[str, Any]:
@@ -371,7 +416,7 @@ def show(numbers: dict[str, Any]) -> None:
         runs = numbers["disturbance"]
         pairs = zip(runs["speeds"], runs["critical"], strict=False)
         text = ", ".join(f"{1e3 * size:.2f} mm at {speed:.2f} m/s" for speed, size in pairs)
-        rows.append(("smallest offset that hunts", text or "nowhere are both motions stable"))
+        rows.append(("smallest disturbance that hunts", text or "nowhere are both motions stable"))
     if "figure" in numbers:
         rows.append(("figure", numbers["figure"]))
     for what, value in rows:
@@ -399,7 +444,7 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument("--points", type=int, help="largest number of orbits on the branch")
     made.add_argument("--intervals", type=int, help="collocation intervals of an orbit")
     made.add_argument("--descent", action="store_true", help="add a quasi-static descent")
-    made.add_argument("--step", type=float, help="steps of the descent [m/s]; else 2 %% of Hopf")
+    made.add_argument("--step", type=float, help="steps of the descent [m/s]; else 0.5 %% of Hopf")
     made.add_argument(
         "--disturbance",
         type=float,
