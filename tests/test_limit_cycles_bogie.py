@@ -4,6 +4,8 @@ The bogie is Kaas-Petersen's (Acta Mechanica 61 (1986) 89), written out in
 `vehicles/cooperrider_reference.py`. The three methods share nothing but the right-hand side.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ from exudyn_wheelset.analyses.disturbance import critical_disturbance
 from exudyn_wheelset.analyses.limit_cycles import limit_cycles
 from exudyn_wheelset.analyses.linear import hopf_points
 from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.analyses.symmetry import mirror_of_mode
 from exudyn_wheelset.vehicles.cooperrider_bogie import cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
@@ -162,3 +165,37 @@ def test_descent_from_the_branch_is_on_it(branch):
     )
     assert descent.reason.startswith("still hunting at the lower end")
     assert descent.amplitude["q1"][0] == pytest.approx(branch.amplitude["q1"][index], rel=2e-3)
+
+
+def test_half_of_a_symmetric_orbit_tells_all(branch, hopf):
+    whole = limit_cycles(SYSTEM, hopf, (60.0, 80.0), mirror=False)
+    assert branch.record["cost"]["mirror_image"] and not whole.record["cost"]["mirror_image"]
+    cost = [part.record["cost"]["right_hand_sides"] for part in (branch, whole)]
+    assert cost[0] < 0.6 * cost[1]
+    # The meshes differ: the error of 30 intervals in each.
+    assert branch.folds[0] == pytest.approx(whole.folds[0], abs=5e-3)
+    index = 10
+    near = int(np.argmin(np.abs(whole.speed[:15] - branch.speed[index])))
+    start = branch.orbits[index]
+    equations = Collocation(SYSTEM, start.period, 1.0)
+    at = replace(whole.orbits[near], speed=start.speed)
+    orbit = solve_orbit(equations, at, speed_row(at, 14)).orbit
+    multipliers, _ = equations.multipliers(orbit, equations.condense(orbit))
+    expected = np.abs(branch.multipliers[index][:5])
+    np.testing.assert_allclose(np.abs(multipliers[:5]), expected, atol=1e-3)
+    assert orbit.period == pytest.approx(start.period, rel=1e-6)
+
+
+def test_an_asymmetric_vehicle_is_not_halved():
+    class Shifted(type(SYSTEM)):
+        def derivative(self, state, speed):
+            rate = np.array(super().derivative(state, speed))
+            rate[7] += 0.02 * state[0] ** 2 / 1e-3
+            return rate
+
+    asymmetric = cooperrider_reference_system()
+    asymmetric.__class__ = Shifted
+    (hopf,) = hopf_points(asymmetric, 60.0, 80.0)
+    assert mirror_of_mode(asymmetric, hopf.state, hopf.mode, hopf.speed) is None
+    signs = mirror_of_mode(SYSTEM, hopf.state, hopf.mode, hopf.speed)
+    np.testing.assert_array_equal(signs, -np.ones(14))

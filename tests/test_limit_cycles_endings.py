@@ -103,7 +103,7 @@ def test_no_convergence_at_the_smallest_step():
 
 
 def test_interrupted_branch_is_kept():
-    branch = follow(normal_form(calls_left=8_000))
+    branch = follow(normal_form(calls_left=4_000))
     assert branch.reason == "interrupted by the user"
     assert 3 < len(branch) < 25
 

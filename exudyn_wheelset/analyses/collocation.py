@@ -82,16 +82,15 @@ class Gradients:
 
     def on_mesh(self, mesh: Array, degree: int) -> Gradients:
         """Interpolated linearly to the Gauss points of another mesh: good for Newton's steps,
-        not for Floquet multipliers."""
+        not for Floquet multipliers. Beyond the ends the nearest value is taken."""
         wanted = (mesh[:-1, None] + np.diff(mesh)[:, None] * basis_of(degree).gauss).ravel()
-        phases = np.concatenate([[self.phases[-1] - 1.0], self.phases, [self.phases[0] + 1.0]])
-        right = np.searchsorted(phases, wanted)
-        weight = (wanted - phases[right - 1]) / (phases[right] - phases[right - 1])
+        right = np.clip(np.searchsorted(self.phases, wanted), 1, len(self.phases) - 1)
+        gaps = self.phases[right] - self.phases[right - 1]
+        weight = np.clip((wanted - self.phases[right - 1]) / gaps, 0.0, 1.0)
 
         def moved(values: Array) -> Array:
-            periodic = np.concatenate([values[-1:], values, values[:1]])
             share = weight.reshape(-1, *[1] * (values.ndim - 1))
-            return (1.0 - share) * periodic[right - 1] + share * periodic[right]
+            return (1.0 - share) * values[right - 1] + share * values[right]
 
         return Gradients(wanted, moved(self.rates), moved(self.by_state), moved(self.by_speed))
 
@@ -103,19 +102,25 @@ class Condensed:
     inverse      (N, m n, m n) of the blocks of interior values
     propagation  (N, m n, n): interior values from the interval's first one
     points       (N, m + 1, n, n + 2): every value from q
+    closure      (n,) signs that the end carries over to the start: 1, or the orbit's mirror
     gradients    what they were assembled from
     """
 
     inverse: Array
     propagation: Array
     points: Array
+    closure: Array
     gradients: Gradients
 
     @property
     def monodromy(self) -> Array:
-        """Map (n, n) of a disturbance, in scales, over one period."""
+        """Map (n, n) of a disturbance, in scales, over one period.
+
+        Over half of it, then mirrored, twice, if the orbit is its own mirror image.
+        """
         size = self.points.shape[2]
-        return self.points[-1, -1, :, :size]
+        matrix = self.closure[:, None] * self.points[-1, -1, :, :size]
+        return matrix if np.all(self.closure > 0.0) else matrix @ matrix
 
     def solve(self, defects: Array, rows: list[Functional], values: list[float]) -> Direction:
         """Correction that removes the defects (N, m, n) and gives each row its value.
@@ -134,7 +139,7 @@ class Condensed:
         matrix = np.zeros((columns, columns))
         right = np.zeros(columns)
         matrix[:size] = self.points[-1, -1]
-        matrix[:size, :size] -= np.eye(size)
+        matrix[:size, :size] -= np.diag(self.closure)
         right[:size] = -offset[-1, -1]
         for line, (row, value) in enumerate(zip(rows, values, strict=True), start=size):
             matrix[line] = np.tensordot(row.orbit, self.points, axes=3)
@@ -153,13 +158,21 @@ class Condensed:
 class Collocation:
     """The collocation equations of a system, with a count of what they cost.
 
-    period_unit and speed_unit measure the changes of T and V. A system without Jacobians of its
-    own is differentiated by n one-sided differences a point, f being known there. `evaluations`
-    counts right-hand sides, those of differences included, `jacobians` Jacobian matrices of f.
+    period_unit and speed_unit measure the changes of T and V; mirror is that of the orbits. A
+    system without Jacobians of its own is differentiated by n one-sided differences a point, f
+    being known there. `evaluations` counts right-hand sides, those of differences included,
+    `jacobians` Jacobian matrices of f.
     """
 
-    def __init__(self, system: DynamicSystem, period_unit: float, speed_unit: float) -> None:
+    def __init__(
+        self,
+        system: DynamicSystem,
+        period_unit: float,
+        speed_unit: float,
+        mirror: Array | None = None,
+    ) -> None:
         self.system = system
+        self.mirror = mirror
         self.scales = np.asarray(system.scales, dtype=float)
         self.period_unit = float(period_unit)
         self.speed_unit = float(speed_unit)
@@ -207,6 +220,9 @@ class Collocation:
         weighted = np.einsum("i,jk,ikn->ijn", widths, gram, direction.orbit)
         weights = widths[:, None] * (basis.weights @ basis.values)
         mean = np.einsum("ij,ijn->n", weights, direction.orbit)
+        if self.mirror is not None:
+            # What changes sign in the other half has no mean.
+            mean[self.mirror < 0.0] = 0.0
         weighted -= weights[:, :, None] * mean
         return Functional(weighted, direction.period, direction.speed)
 
@@ -236,7 +252,7 @@ class Collocation:
         basis = basis_of(orbit.degree)
         slopes = np.einsum("kj,ijn->ikn", basis.slopes, self.windows(orbit))
         widths = np.diff(orbit.mesh)[:, None, None]
-        return slopes - widths * orbit.period * rates.reshape(slopes.shape)
+        return slopes - widths * orbit.duration * rates.reshape(slopes.shape)
 
     def condense(self, orbit: Orbit) -> Condensed:
         """Newton's equations at the orbit: one Jacobian of f at every Gauss point."""
@@ -278,15 +294,16 @@ class Collocation:
         basis = basis_of(orbit.degree)
         intervals, degree, size = len(orbit.mesh) - 1, orbit.degree, len(self.scales)
         widths = np.repeat(np.diff(orbit.mesh), degree)
-        jacobians = gradients.by_state * (orbit.period * widths)[:, None, None]
+        jacobians = gradients.by_state * (orbit.duration * widths)[:, None, None]
         jacobians = jacobians.reshape(intervals, degree, size, size)
         full = -np.einsum("kj,ikab->ikajb", basis.values, jacobians)
         for component in range(size):
             full[:, :, component, :, component] += basis.slopes
         full = full.reshape(intervals, degree * size, (degree + 1) * size)
-        columns = widths[:, None] * gradients.rates * self.period_unit
+        share = orbit.duration / orbit.period
+        columns = widths[:, None] * gradients.rates * (share * self.period_unit)
         by_period = -columns.reshape(intervals, -1, 1)
-        columns = widths[:, None] * gradients.by_speed * (orbit.period * self.speed_unit)
+        columns = widths[:, None] * gradients.by_speed * (orbit.duration * self.speed_unit)
         by_speed = -columns.reshape(intervals, -1, 1)
         try:
             inverse = np.linalg.inv(full[:, :, size:])
@@ -302,7 +319,8 @@ class Collocation:
             inner[:, size:] += influence[index, :, size:]
             points[index, 1:] = inner.reshape(degree, size, size + 2)
             start = points[index, -1]
-        return Condensed(inverse, influence[:, :, :size], points, gradients)
+        closure = np.ones(size) if orbit.mirror is None else orbit.mirror
+        return Condensed(inverse, influence[:, :, :size], points, closure, gradients)
 
     def multipliers(self, orbit: Orbit, condensed: Condensed) -> tuple[Array, float]:
         """Floquet multipliers (n - 1,) by falling size, and the error of the trivial one.

@@ -19,7 +19,7 @@ short length, so a step is also refused when the tangent turns by more than `tur
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,8 @@ class ContinuationSettings:
     growth              largest change of the orbit in one step, as a fraction of its size
     speed_steps         the speed range is crossed in at least this many steps
     smallest_step       of the arclength, as a fraction of the largest allowed one
+    mirror              whether orbits may be taken as their own mirror image, which halves the
+                        cost, where system and start are found to be symmetric
     turn, corner        largest turn of the tangent in one step [rad], asked for in steps down to
                         this fraction of the largest allowed one
     adapt_every         points between two adaptations of the mesh
@@ -64,6 +66,7 @@ class ContinuationSettings:
     growth: float = 0.3
     speed_steps: int = 25
     smallest_step: float = 1e-4
+    mirror: bool = True
     turn: float = 0.5
     corner: float = 0.03
     adapt_every: int = 4
@@ -133,16 +136,19 @@ def hopf_start(
         mode = mode.conj()
     displacements = list(system.displacement_indices)
     mode = mode / np.abs((mode / equations.scales)[displacements]).max()
-    count = settings.intervals * settings.degree
-    cycle = np.real(mode[None, :] * np.exp(2j * np.pi * np.arange(count + 1) / count)[:, None])
-    mesh = np.linspace(0.0, 1.0, settings.intervals + 1)
+    mirror = equations.mirror
+    intervals = settings.intervals if mirror is None else (settings.intervals + 1) // 2
+    count = intervals * settings.degree
+    turn = 2j * np.pi if mirror is None else 1j * np.pi
+    cycle = np.real(mode[None, :] * np.exp(turn * np.arange(count + 1) / count)[:, None])
+    mesh = np.linspace(0.0, 1.0, intervals + 1)
     amplitude = settings.first_amplitude
     failure = "Newton converged to another motion"
     for _ in range(10):
         states = hopf.state + amplitude * cycle
-        states[-1] = states[0]
-        guess = Orbit(mesh, states, 2.0 * np.pi / frequency, float(hopf.speed))
-        resting = Orbit(mesh, np.tile(hopf.state, (count + 1, 1)), guess.period, guess.speed)
+        states[-1] = states[0] if mirror is None else mirror * states[0]
+        guess = Orbit(mesh, states, 2.0 * np.pi / frequency, float(hopf.speed), mirror)
+        resting = replace(guess, states=np.tile(hopf.state, (count + 1, 1)))
         tangent = _unit(equations, mesh, equations.difference(guess, resting))
         row = equations.inner(mesh, tangent)
         try:
@@ -298,10 +304,11 @@ class _Follower:
 
     def _intervals_wanted(self, error: float) -> int:
         settings, count = self.settings, len(self.base.orbit.mesh) - 1
+        parts = 1 if self.equations.mirror is None else 2
         if error > settings.accuracy:
-            return max(count, min(count + count // 2, settings.maximum_intervals))
+            return max(count, min(count + count // 2, settings.maximum_intervals // parts))
         if error < 0.02 * settings.accuracy:
-            return max(settings.intervals, count - count // 4)
+            return max((settings.intervals + parts - 1) // parts, count - count // 4)
         return count
 
     def _turns_back(self, orbit: Orbit) -> bool:

@@ -25,10 +25,12 @@ from exudyn_wheelset.analyses.continuation import (
     follow,
     hopf_start,
 )
+from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
 from exudyn_wheelset.analyses.linear import CriticalPoint
 from exudyn_wheelset.analyses.orbit import Orbit
 from exudyn_wheelset.analyses.records import describe
 from exudyn_wheelset.analyses.settling import orbit_near, watched_index
+from exudyn_wheelset.analyses.symmetry import mirror_of_mode, mirror_of_orbit
 from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
 from exudyn_wheelset.errors import AnalysisError
 
@@ -67,7 +69,10 @@ def limit_cycles(
                     f"the Hopf point at {start.speed:.4f} m/s lies outside of speeds = "
                     f"({low:g}, {high:g}) m/s; widen the range"
                 )
-            equations = Collocation(system, 1.0 / start.frequency, high - low)
+            mirror = None
+            if settings.mirror:
+                mirror = mirror_of_mode(system, start.state, start.mode, start.speed)
+            equations = Collocation(system, 1.0 / start.frequency, high - low, mirror)
             orbit, _, heading = hopf_start(equations, start, settings)
             points, reason = follow(equations, orbit, heading, (low, high), settings, report)
             hopf: tuple[float, float] | None = (start.speed, start.frequency)
@@ -83,10 +88,16 @@ def limit_cycles(
                     intervals=settings.intervals,
                     degree=settings.degree,
                 )
-            equations = Collocation(system, orbit.period, high - low)
+            mirror = mirror_of_orbit(system, orbit) if settings.mirror else None
+            orbit = orbit.whole() if mirror is None else orbit.halved(mirror)
+            equations = Collocation(system, orbit.period, high - low, mirror)
+            if mirror is not None:
+                row = speed_row(orbit, system.size)
+                orbit = solve_orbit(equations, orbit, row, tolerance=settings.tolerance).orbit
             points, reason = _both_ways(equations, orbit, (low, high), settings, report)
             hopf = None
-    cost = {
+    cost: dict[str, Any] = {
+        "mirror_image": equations.mirror is not None,
         "right_hand_sides": equations.evaluations,
         "jacobians": equations.jacobians,
         "seconds": time.perf_counter() - begun,
@@ -138,7 +149,7 @@ def gather(
         changes=_stability_changes(points, settings.stability_margin),
         hopf=hopf,
         reason=reason,
-        orbits=[point.orbit for point in points],
+        orbits=[point.orbit.whole() for point in points],
         record=record,
     )
 

@@ -59,19 +59,21 @@ def basis_of(degree: int) -> Basis:
 
 @dataclass(frozen=True, eq=False)
 class Orbit:
-    """One periodic motion, a piecewise polynomial of the phase s = t/period in [0, 1].
+    """One periodic motion as a piecewise polynomial.
 
-    mesh     (N + 1,) phases of the interval ends, from 0 to 1
-    states   (N m + 1, n) states at the m + 1 equidistant points of each interval; the last is
-             the first again
+    mesh     (N + 1,) interval ends, from 0 to 1, as fractions of what is stored
+    states   (N m + 1, n) states at the m + 1 equidistant points of each interval
     period   [s]
     speed    [m/s]
+    mirror   None: the whole period is stored. Signs (n,), 1 or -1: half of it is; the other half
+             is the mirror image, x(t + period/2) = mirror x(t), as on a symmetric vehicle
     """
 
     mesh: Array
     states: Array
     period: float
     speed: float
+    mirror: Array | None = None
 
     @property
     def degree(self) -> int:
@@ -79,38 +81,66 @@ class Orbit:
         return (len(self.states) - 1) // (len(self.mesh) - 1)
 
     @property
-    def phases(self) -> Array:
-        """Phases (N m + 1,) of `states`."""
-        local = basis_of(self.degree).points[:-1]
-        inner = self.mesh[:-1, None] + np.diff(self.mesh)[:, None] * local
-        return np.append(inner.ravel(), 1.0)
+    def duration(self) -> float:
+        """Time [s] that the stored part takes."""
+        return self.period if self.mirror is None else 0.5 * self.period
 
     def evaluate(self, phases: Array) -> Array:
-        """States (k, n) at phases (k,) of any size; the orbit repeats with 1."""
+        """States (k, n) at phases t/period (k,) of any size; the orbit repeats with 1."""
         phases = np.mod(np.asarray(phases, dtype=float), 1.0)
-        interval = np.clip(np.searchsorted(self.mesh, phases, side="right") - 1, 0, None)
-        interval = np.minimum(interval, len(self.mesh) - 2)
-        local = (phases - self.mesh[interval]) / np.diff(self.mesh)[interval]
-        basis = basis_of(self.degree)
-        coefficients = np.linalg.inv(np.vander(basis.points, increasing=True))
-        weights = local[:, None] ** np.arange(self.degree + 1) @ coefficients
-        return np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
+        if self.mirror is None:
+            return self._inside(phases)
+        late = phases >= 0.5
+        values = self._inside(2.0 * phases - late)
+        values[late] *= self.mirror
+        return values
 
     def half_peak_to_peak(self) -> Array:
         """Amplitude (n,): half of the distance from the least to the largest value."""
         per_interval = 4 * self.degree
         local = np.arange(per_interval) / per_interval
         phases = (self.mesh[:-1, None] + np.diff(self.mesh)[:, None] * local).ravel()
-        values = self.evaluate(phases)
+        values = self._inside(phases)
+        if self.mirror is not None:
+            phases = np.concatenate([0.5 * phases, 0.5 + 0.5 * phases])
+            values = np.concatenate([values, self.mirror * values])
         return 0.5 * (_peak(phases, values) + _peak(phases, -values))
 
     def on_mesh(self, mesh: Array) -> Orbit:
-        """The same motion on other intervals."""
-        moved = replace(self, mesh=np.asarray(mesh), states=np.empty(0))
+        """The same motion on other intervals of the stored part."""
         local = basis_of(self.degree).points[:-1]
-        phases = (moved.mesh[:-1, None] + np.diff(moved.mesh)[:, None] * local).ravel()
-        states = self.evaluate(phases)
-        return replace(moved, states=np.vstack([states, states[:1]]))
+        inside = (mesh[:-1, None] + np.diff(mesh)[:, None] * local).ravel()
+        states = self._inside(inside)
+        last = states[:1] if self.mirror is None else self.mirror * states[:1]
+        return replace(self, mesh=np.asarray(mesh), states=np.vstack([states, last]))
+
+    def whole(self) -> Orbit:
+        """The same motion with the whole period stored."""
+        if self.mirror is None:
+            return self
+        mesh = np.concatenate([0.5 * self.mesh, 0.5 + 0.5 * self.mesh[1:]])
+        states = np.concatenate([self.states, self.mirror * self.states[1:]])
+        states[-1] = states[0]
+        return Orbit(mesh, states, self.period, self.speed)
+
+    def halved(self, mirror: Array) -> Orbit:
+        """The first half of a motion that is its own mirror image, on half of the intervals."""
+        whole = self.whole()
+        count = len(whole.mesh) // 2 * whole.degree
+        states = whole.evaluate(0.5 * np.arange(count + 1) / count)
+        states[-1] = mirror * states[0]
+        mesh = np.linspace(0.0, 1.0, len(whole.mesh) // 2 + 1)
+        return Orbit(mesh, states, whole.period, whole.speed, mirror)
+
+    def _inside(self, fractions: Array) -> Array:
+        """States (k, n) at fractions (k,) of the stored part, from 0 to 1."""
+        interval = np.searchsorted(self.mesh, fractions, side="right") - 1
+        interval = np.clip(interval, 0, len(self.mesh) - 2)
+        local = (fractions - self.mesh[interval]) / np.diff(self.mesh)[interval]
+        basis = basis_of(self.degree)
+        coefficients = np.linalg.inv(np.vander(basis.points, increasing=True))
+        weights = local[:, None] ** np.arange(self.degree + 1) @ coefficients
+        return np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
 
 
 def orbit_from_samples(
@@ -145,7 +175,10 @@ def balanced_mesh(
     highest = np.einsum("j,ijn->in", basis_of(degree).barycentric, windows)
     highest *= (degree / widths[:, None]) ** degree
     gaps = 0.5 * (widths + np.roll(widths, 1))
-    jumps = np.linalg.norm(highest - np.roll(highest, 1, axis=0), axis=1) / gaps
+    before = np.roll(highest, 1, axis=0)
+    if orbit.mirror is not None:
+        before[0] *= orbit.mirror
+    jumps = np.linalg.norm(highest - before, axis=1) / gaps
     density = (0.5 * (jumps + np.roll(jumps, -1))) ** (1.0 / (degree + 1))
     density = 0.25 * np.roll(density, 1) + 0.5 * density + 0.25 * np.roll(density, -1)
     total = float(np.sum(density * widths))
