@@ -12,7 +12,7 @@ only its numbers:
     points, seconds, reason   orbits on the branch, time of the continuation, why the branch ends
 
 `--descent` adds hunting simulated at falling speed down to its jump, `--disturbance` the smallest
-one-off disturbance, in the shape of hunting, that goes on; both come onto the same figure. It shows
+one-off lateral blow (a velocity) that leads to it; both come onto the same figure. It shows
 the unstable branch dashed: a motion that stays below it dies out, one beyond it hunts.
 
 Figure and data land under `--out`, named after the vehicle and what was changed of it. The data
@@ -54,8 +54,6 @@ matplotlib.use("Agg")
 CHANGES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination", "damping")
 # Ends of the branch, in Hopf speeds.
 RANGE = (0.5, 1.3)
-# What disturbance runs disturb: the shape of the critical mode, measured by the displacement.
-SHAPE = "shape of the critical mode"
 # Unit in which a displacement is drawn, by the unit in its name.
 DRAWN = {"m": ("mm", 1e3), "rad": ("mrad", 1e3)}
 
@@ -114,6 +112,11 @@ def lateral_mode(system: DynamicSystem, hopf: CriticalPoint) -> np.ndarray:
     """
     mode = np.asarray(hopf.mode)
     return np.real(mode / mode[watched_index(system)])
+
+
+def velocity_of(system: DynamicSystem, displacement: int, speed: float) -> int:
+    """Index of the state that is the rate of a displacement."""
+    return int(np.argmax(system.jacobian(system.equilibrium(speed), speed)[displacement]))
 
 
 def disturbed_speeds(branch: Branch, count: int = 4) -> np.ndarray:
@@ -178,19 +181,9 @@ def draw_diagram(
             factor * runs.edge,
             "x",
             color="C3",
-            label="disturbance runs: where motions part",
+            label=f"disturbance runs, {runs.direction.split(' [')[0]}: where motions part",
             zorder=5,
         )
-        if runs.direction == f"{SHAPE}, {name}":
-            axes.plot(
-                runs.speeds,
-                factor * runs.critical,
-                "+",
-                color="C4",
-                markersize=8,
-                label="disturbance runs: smallest disturbance that hunts",
-                zorder=5,
-            )
     axes.set_ylim(bottom=0.0)
     # Room for the notes beside lowest folds.
     left, right = axes.get_xlim()
@@ -357,17 +350,21 @@ def _simulate(
         speeds = np.asarray(arguments.disturbance or disturbed_speeds(branch))
         numbers["disturbance"] = {"speeds": speeds, "critical": []}
         if len(speeds):
+            blow = velocity_of(system, watched_index(system), hopf.speed)
             runs = critical_disturbance(
                 system,
                 speeds,
-                1.4 * largest,
-                direction=shape,
+                4.0 * 2.0 * np.pi * hopf.frequency * largest,
+                direction=blow,
                 tolerance=0.005,
                 progress=not arguments.json,
             )
-            runs = replace(runs, direction=f"{SHAPE}, {watched}")
             files.append(runs.save(arguments.out / f"{stem}_disturbance.npz"))
-            numbers["disturbance"] = {"speeds": runs.speeds, "critical": runs.critical}
+            numbers["disturbance"] = {
+                "of": runs.direction,
+                "speeds": runs.speeds,
+                "critical": [float(v) if np.isfinite(v) else None for v in runs.critical],
+            }
     return files
 
 
@@ -415,8 +412,10 @@ def show(numbers: dict[str, Any]) -> None:
     if "disturbance" in numbers:
         runs = numbers["disturbance"]
         pairs = zip(runs["speeds"], runs["critical"], strict=False)
-        text = ", ".join(f"{1e3 * size:.2f} mm at {speed:.2f} m/s" for speed, size in pairs)
-        rows.append(("smallest disturbance that hunts", text or "nowhere are both motions stable"))
+        sizes = [(at, "none" if size is None else f"{size:.4g}") for at, size in pairs]
+        text = ", ".join(f"{size} at {speed:.2f} m/s" for speed, size in sizes)
+        what = f"smallest {runs.get('of', 'disturbance')} that hunts"
+        rows.append((what, text or "nowhere are straight run and hunting both stable"))
     if "figure" in numbers:
         rows.append(("figure", numbers["figure"]))
     for what, value in rows:
