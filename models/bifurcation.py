@@ -350,12 +350,16 @@ def _simulate(
         speeds = np.asarray(arguments.disturbance or disturbed_speeds(branch))
         numbers["disturbance"] = {"speeds": speeds, "critical": []}
         if len(speeds):
-            blow = velocity_of(system, watched_index(system), hopf.speed)
+            direction: str | int = arguments.direction
+            size = 1.5 * largest / system.scales[watched_index(system)]
+            if direction == "blow":
+                direction = velocity_of(system, watched_index(system), hopf.speed)
+                size = 4.0 * 2.0 * np.pi * hopf.frequency * largest
             runs = critical_disturbance(
                 system,
                 speeds,
-                4.0 * 2.0 * np.pi * hopf.frequency * largest,
-                direction=blow,
+                size,
+                direction=direction,
                 tolerance=0.005,
                 progress=not arguments.json,
             )
@@ -451,6 +455,13 @@ def parser() -> argparse.ArgumentParser:
         metavar="SPEED",
         help="add disturbance runs at these speeds [m/s]; else at four between the "
         "nonlinear and the linear critical speed",
+    )
+    made.add_argument(
+        "--direction",
+        choices=("blow", "mode"),
+        default="blow",
+        help="what is disturbed: the lateral velocity [m/s], or the shape of the least damped mode "
+        "in units of its scale (a millimetre of a wheelset)",
     )
     made.add_argument("--friction", type=float, help="coefficient of friction")
     made.add_argument("--creep", help="creep law")
