@@ -22,6 +22,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import exudyn as exu
 import numpy as np
 from numba import njit
 
@@ -37,6 +38,7 @@ from exudyn_wheelset.errors import ContactError
 # shift of 40 mm no tread carries, and a wheel off its rail drops.
 _DERAILED_RISE = 0.015
 _DERAILED_SHIFT = 0.04
+_CURRENT = exu.ConfigurationType.Current
 Irregularity = Callable[[float], Any]
 
 
@@ -176,7 +178,8 @@ class WheelRailContact:
     def load_function(self, part: int) -> Callable[[Any, float, Any], tuple[float, float, float]]:
         """User function of the force load (part 0) or the torque load (part 1), global axes.
 
-        A closure, because every attribute looked up here is looked up at each evaluation.
+        A closure, because every attribute looked up here is looked up at each evaluation; the
+        coordinates are views of Exudyn's own vectors, used before anything can change them.
         """
         table, state = self.table, self._state
         coordinates = velocities = None
@@ -189,10 +192,10 @@ class WheelRailContact:
                 first = self.first
                 coordinates = self._data.GetODE2Coordinates
                 velocities = self._data.GetODE2Coordinates_t
-            q = coordinates()
+            q = coordinates(_CURRENT, False)
             if self.irregularity is not None or self.elasticity is not None:
                 self._move_rails(q, t)
-            return body_wrench(q, velocities(), first, table, state, part)
+            return body_wrench(q, velocities(_CURRENT, False), first, table, state, part)
 
         return wrench
 
