@@ -153,16 +153,23 @@ def draw(path: Path, diagram: Diagram, title: str) -> Path:
 
 
 def draw_diagram(
-    axes: Any, diagram: Diagram, colours: Sequence[str] = (), labels: Sequence[str] = ()
+    axes: Any,
+    diagram: Diagram,
+    colours: Sequence[str] = (),
+    labels: Sequence[str] = (),
+    notes: bool = True,
 ) -> None:
-    """Amplitudes over speed into axes; colours and labels of the branches, in their order."""
+    """Amplitudes over speed into axes; colours and labels of the branches, in their order.
+
+    notes: write speeds beside Hopf points and folds, and say what the line styles are.
+    """
     name = diagram.watched
     unit, factor = DRAWN.get(name.rpartition("[")[2].rstrip("]"), (None, 1.0))
     for index, branch in enumerate(diagram.branches):
         colour = colours[index] if index < len(colours) else f"C{index}"
         label = labels[index] if index < len(labels) else None
-        _draw_branch(axes, branch, name, factor, colour, label)
-    if diagram.branches:
+        _draw_branch(axes, branch, name, factor, colour, label, notes)
+    if diagram.branches and notes:
         axes.plot([], [], "-", color="0.3", label="stable")
         axes.plot([], [], "--", color="0.3", label="unstable: edge of the basin of attraction")
     for descent in diagram.descents:
@@ -195,7 +202,13 @@ def draw_diagram(
 
 
 def _draw_branch(
-    axes: Any, branch: Branch, name: str, factor: float, colour: str, label: str | None
+    axes: Any,
+    branch: Branch,
+    name: str,
+    factor: float,
+    colour: str,
+    label: str | None,
+    notes: bool,
 ) -> None:
     speed, values = branch.speed, factor * branch.amplitude[name]
     marginal = {fold.index for fold in branch.folds}
@@ -216,7 +229,8 @@ def _draw_branch(
         axes.plot([], [], "-", color=colour, label=label)
     if branch.hopf is not None:
         axes.plot(branch.hopf[0], 0.0, "o", color=colour, clip_on=False, zorder=6)
-        _note(axes, f"Hopf {branch.hopf[0]:.2f} m/s", branch.hopf[0], 0.0, colour)
+        if notes:
+            _note(axes, f"Hopf {branch.hopf[0]:.2f} m/s", branch.hopf[0], 0.0, colour)
     noted: list[tuple[float, float]] = []
     reach, height = np.ptp(speed) + 1e-9, np.ptp(values) + 1e-9
     for fold in branch.folds:
@@ -224,7 +238,7 @@ def _draw_branch(
         axes.plot(*where, "s", color=colour, markersize=5, zorder=6)
         # Folds close together, as in a branch of impacts, share a note.
         apart = (abs(where[0] - v) / reach + abs(where[1] - a) / height > 0.08 for v, a in noted)
-        if all(apart):
+        if notes and all(apart):
             noted.append(where)
             _note(axes, f"fold {fold.speed:.2f} m/s", *where, colour, fold.side == "lowest")
 
