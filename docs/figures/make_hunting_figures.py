@@ -1,0 +1,194 @@
+"""Make the figures of docs/hunting.md and print its numbers.
+
+    python docs/figures/make_hunting_figures.py [sets influences s1002 small] [--data FOLDER]
+
+All four take about five minutes. The branches, descents and disturbance runs behind the figures
+are kept as data files (default runs/out/hunting), which models/bifurcation.py --redraw draws again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.analyses.branch import Branch
+from exudyn_wheelset.analyses.descent import Descent, quasi_static_descent
+from exudyn_wheelset.analyses.disturbance import critical_disturbance
+from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
+from exudyn_wheelset.analyses.linear import CriticalPoint, hopf_points
+from exudyn_wheelset.front.output import write_figure
+from exudyn_wheelset.front.plots import new_figure
+from exudyn_wheelset.vehicles.catalogue import entry, vehicle, vehicle_system
+
+HERE = Path(__file__).resolve().parent
+REPOSITORY = HERE.parents[1]
+sys.path.insert(0, str(REPOSITORY / "models"))
+import bifurcation  # noqa: E402
+
+LAWS = ("polach", "shen-hedrick-elkins", "fastsim")
+# Flange impacts are taken up in one blow, as on a track with ballast (vehicles/catalogue.py).
+DAMPING = 10.0
+# Ends of the branches of sets 1 to 3, in Hopf speeds.
+SPANS = {1: (0.8, 1.15), 2: (0.7, 1.15), 3: (0.45, 1.1)}
+# Influences on set 2: option, its unit in the legend, values; the middle one is the paper's.
+INFLUENCES = (
+    ("friction", "friction {:g}", (0.15, 0.3, 0.5)),
+    ("conicity", "conicity {:g}", (0.025, 0.05, 0.1)),
+    ("gauge", "gauge {:g} m", (1.428, 1.432, 1.436)),
+)
+
+
+def branch_of(
+    folder: Path, name: str, span: tuple[float, float], points: int = 90, **changes: Any
+) -> tuple[ExudynSystem, CriticalPoint, Branch]:
+    """System, first Hopf point and branch inside `span` (in Hopf speeds), kept in `folder`."""
+    begun = time.perf_counter()
+    system = vehicle(name, **changes).dynamic_system()
+    hopf = hopf_points(system, *entry(name).searched)[0]
+    speeds = (span[0] * hopf.speed, span[1] * hopf.speed)
+    about = {"vehicle": name, "options": changes}
+    branch = bifurcation.follow(system, hopf, speeds, about=about, maximum_points=points)
+    stem = "_".join([name, *(f"{key}_{value}" for key, value in changes.items())])
+    branch.save(folder / f"{stem}.npz")
+    folds = ", ".join(f"{fold.speed:.2f} ({fold.side})" for fold in branch.folds) or "none"
+    lowest = f"{branch.lowest_stable()[0]:.2f}" if np.any(branch.stable) else "none"
+    print(
+        f"{stem}: Hopf {hopf.speed:.3f} m/s; folds {folds}; lowest stable {lowest}; "
+        f"{len(branch)} orbits; {time.perf_counter() - begun:.0f} s; {branch.reason}",
+        flush=True,
+    )
+    return system, hopf, branch
+
+
+def descent_of(folder: Path, name: str, system: ExudynSystem, hopf: CriticalPoint) -> Descent:
+    """Descent from 1.1 Hopf speeds in steps of 1 %, kept in `folder`."""
+    begun = time.perf_counter()
+    # Flange impacts at 14 Hz want finer steps than the default: 161.0 m/s becomes 164.8 m/s.
+    system.step = min(system.step, 1.0 / (250.0 * hopf.frequency))
+    high, low = 1.1 * hopf.speed, 0.6 * hopf.speed
+    descent = quasi_static_descent(system, high, low, step=0.01 * hopf.speed, disturbance=10.0)
+    descent.save(folder / f"{name}_descent.npz")
+    print(f"{name}: {descent.reason}; {time.perf_counter() - begun:.0f} s", flush=True)
+    return descent
+
+
+def sets(folder: Path) -> None:
+    """The paper's wheelset, sets 1 to 3: whole diagrams, and the branch before the flange."""
+    figure, axes = new_figure(11.0, 7.4, 2, 3)
+    for column, k in enumerate((1, 2, 3)):
+        whole, small = axes[0, column], axes[1, column]
+        branches = []
+        for law in ("polach", "fastsim"):
+            changes = {"creep": law, "damping": DAMPING}
+            system, hopf, branch = branch_of(folder, f"paper-{k}", SPANS[k], **changes)
+            branches.append(branch)
+            if law == "polach":
+                descent = descent_of(folder, f"paper-{k}", system, hopf)
+        shown = bifurcation.Diagram(branches, [descent])
+        bifurcation.draw_diagram(whole, shown, ["C0", "C2"], ["polach", "fastsim"], notes=False)
+        whole.set_ylim(0.0, 14.0)
+        whole.set_title(f"set {k}", fontsize=10)
+        whole.set_xlabel("")
+        for index, law in enumerate(LAWS):
+            branch = branch_of(folder, f"paper-{k}", (0.97, 1.03), 26, creep=law)[2]
+            y = 1e3 * branch.amplitude["y"]
+            before = y < 10.0
+            small.plot(
+                1e2 * (branch.speed[before] / branch.speed[0] - 1.0),
+                y[before],
+                color=f"C{(0, 1, 2)[index]}",
+                label=law,
+            )
+        small.axvline(0.0, color="0.6", linewidth=0.8)
+        small.set_xlim(-0.75, 0.75)
+        small.set_xlabel("speed beyond that of the smallest orbit [%]")
+        small.set_ylabel("y, half of peak to peak [mm]")
+        small.legend(fontsize=8, frameon=False, loc="lower right")
+    write_figure(HERE / "hunting_paper_sets.png", figure)
+
+
+def influences(folder: Path) -> None:
+    """Friction, conicity and flange clearance on the paper's wheelset, set 2."""
+    figure, axes = new_figure(11.0, 4.2, 1, 3)
+    known: Branch | None = None
+    for panel, (option, words, values) in zip(axes[0], INFLUENCES, strict=True):
+        branches = []
+        for place, value in enumerate(values):
+            if place == 1 and known is not None:
+                branches.append(known)
+                continue
+            changes = {} if place == 1 else {option: value}
+            branch = branch_of(
+                folder, "paper-2", (0.7, 1.15), creep="fastsim", damping=DAMPING, **changes
+            )[2]
+            branches.append(branch)
+            known = branch if place == 1 else known
+        labels = [words.format(value) for value in values]
+        bifurcation.draw_diagram(panel, bifurcation.Diagram(branches), labels=labels, notes=False)
+    write_figure(HERE / "hunting_influences.png", figure)
+
+
+def s1002(folder: Path) -> None:
+    """S1002 on UIC60: continuation, descent and disturbance runs on one figure."""
+    system, hopf, branch = branch_of(folder, "s1002", bifurcation.RANGE, 200)
+    largest = 1.05 * float(branch.amplitude["y"].max())
+    high = bifurcation.RANGE[1] * hopf.speed
+    start = system.equilibrium(high) + largest * bifurcation.lateral_mode(system, hopf)
+    begun = time.perf_counter()
+    descent = quasi_static_descent(system, high, 0.9 * hopf.speed, step=0.5, state=start)
+    print(f"descent: {descent.reason}; {time.perf_counter() - begun:.0f} s", flush=True)
+    begun = time.perf_counter()
+    blow = bifurcation.velocity_of(system, 1, hopf.speed)
+    speeds = bifurcation.disturbed_speeds(branch, 5)
+    runs = critical_disturbance(system, speeds, 1.0, direction=blow, tolerance=0.005)
+    for speed, size, edge in zip(runs.speeds, runs.critical, runs.edge, strict=True):
+        (unstable,) = branch.amplitudes_at(speed, "y", stable=False)[:1]
+        print(
+            f"blow at {speed:.2f} m/s: {size:.3f} m/s; motions part at {1e3 * edge:.2f} mm, "
+            f"unstable orbit {1e3 * unstable:.2f} mm"
+        )
+    print(f"disturbance runs: {runs.runs}; {time.perf_counter() - begun:.0f} s", flush=True)
+    descent.save(folder / "s1002_descent.npz")
+    runs.save(folder / "s1002_disturbance.npz")
+    bifurcation.draw(
+        HERE / "hunting_s1002.png",
+        bifurcation.Diagram([branch], [descent], [runs]),
+        "S1002 on UIC60, 1:40, gauge 1435 mm: three methods",
+    )
+
+
+def small(folder: Path) -> None:
+    """Hopf point beside the speed of the smallest orbit, by creep law."""
+    print("| creep law | " + " | ".join(f"set {k}: Hopf, small orbit" for k in (1, 2, 3)) + " |")
+    for law in LAWS:
+        cells = []
+        for k in (1, 2, 3):
+            system = vehicle_system(f"paper-{k}", creep=law)
+            hopf = hopf_points(system, *entry(f"paper-{k}").searched)[0]
+            span = (0.97 * hopf.speed, 1.03 * hopf.speed)
+            branch = bifurcation.follow(system, hopf, span, maximum_points=2)
+            cells.append(f"{hopf.speed:.3f}, {branch.speed[0]:.3f}")
+        print(f"| {law} | " + " | ".join(cells) + " |")
+
+
+def main() -> None:
+    makers = {"sets": sets, "influences": influences, "s1002": s1002, "small": small}
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("parts", nargs="*", help=f"of {', '.join(makers)}; all if left out")
+    parser.add_argument("--data", type=Path, default=REPOSITORY / "runs" / "out" / "hunting")
+    arguments = parser.parse_args()
+    begun = time.perf_counter()
+    for part in arguments.parts or makers:
+        if part not in makers:
+            parser.error(f"{part!r} is not one of {', '.join(makers)}")
+        makers[part](arguments.data)
+    print(f"{time.perf_counter() - begun:.0f} s in total")
+
+
+if __name__ == "__main__":
+    main()
