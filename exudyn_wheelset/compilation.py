@@ -8,6 +8,7 @@ of this package carry a stamp over all its sources, and go when it no longer fit
 from __future__ import annotations
 
 import hashlib
+import sys
 import time
 from pathlib import Path
 
@@ -41,9 +42,12 @@ def drop_stale_kernels() -> bool:
 def warm_up() -> float:
     """Load or compile the kernels of a wheelset on its rails; return the seconds it took.
 
-    Compiling happens once after installation (some 20 s), loading takes a few tenths of a second.
+    Compiling happens once after installation, with a word on the error stream; loading takes a
+    few tenths of a second.
     """
     start = time.perf_counter()
+    if not any((PACKAGE / "contact").rglob("*.nbi")):
+        print("compiling the kernels, once: half a minute or so", file=sys.stderr, flush=True)
     from exudyn_wheelset.contact.descriptions import Track, Wheelset
     from exudyn_wheelset.contact.rigid import contact_geometry
     from exudyn_wheelset.contact.wheelset_contact import contact_forces
