@@ -84,7 +84,7 @@ def sets(folder: Path) -> None:
         whole, small = axes[0, column], axes[1, column]
         branches = []
         for law in ("polach", "fastsim"):
-            changes = {"creep": law, "damping": DAMPING}
+            changes: dict[str, Any] = {"creep": law, "damping": DAMPING}
             system, hopf, branch = branch_of(folder, f"paper-{k}", SPANS[k], **changes)
             branches.append(branch)
             if law == "polach":
@@ -122,7 +122,7 @@ def influences(folder: Path) -> None:
             if place == 1 and known is not None:
                 branches.append(known)
                 continue
-            changes = {} if place == 1 else {option: value}
+            changes: dict[str, Any] = {} if place == 1 else {option: value}
             branch = branch_of(
                 folder, "paper-2", (0.7, 1.15), creep="fastsim", damping=DAMPING, **changes
             )[2]
@@ -163,7 +163,9 @@ def s1002(folder: Path) -> None:
 
 
 def small(folder: Path) -> None:
-    """Hopf point beside the speed of the smallest orbit, by creep law."""
+    """S1002 over the gauge; Hopf point beside the speed of the smallest orbit, by creep law."""
+    for gauge in (1.433, 1.434, 1.435, 1.436, 1.437):
+        branch_of(folder, "s1002", (0.45, 1.3), 70, gauge=gauge)
     print("| creep law | " + " | ".join(f"set {k}: Hopf, small orbit" for k in (1, 2, 3)) + " |")
     for law in LAWS:
         cells = []
