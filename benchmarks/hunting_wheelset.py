@@ -28,11 +28,11 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from multiprocessing import get_context  # noqa: E402
 
-from exudyn_wheelset.analyses.branch import Branch  # noqa: E402
-from exudyn_wheelset.analyses.descent import quasi_static_descent  # noqa: E402
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles  # noqa: E402
-from exudyn_wheelset.analyses.linear import CriticalPoint, linear_critical_speed  # noqa: E402
-from exudyn_wheelset.analyses.system import DynamicSystem  # noqa: E402
+from exudyn_wheelset.stability.hunting.branch import Branch  # noqa: E402
+from exudyn_wheelset.stability.hunting.descent import quasi_static_descent  # noqa: E402
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles  # noqa: E402
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, linear_critical_speed  # noqa: E402
+from exudyn_wheelset.systems.system import DynamicSystem  # noqa: E402
 from exudyn_wheelset.vehicles.catalogue import entry, vehicle_system  # noqa: E402
 
 RESOLUTION = 0.1

@@ -6,22 +6,18 @@ items = create_wheelset(mbs, Wheelset(...), Track(rail="UIC60"), speed=30)
 
 from importlib import metadata
 
-from exudyn_wheelset.compilation import drop_stale_kernels
-
 try:
     __version__ = metadata.version("exudyn-wheelset")
 except metadata.PackageNotFoundError:
     __version__ = "0+source"
 
-drop_stale_kernels()
-
 _PLACES = {
     "AnalysisError": "errors",
-    "Branch": "analyses.branch",
+    "Branch": "stability.hunting.branch",
     "ContactError": "errors",
-    "DynamicSystem": "analyses.system",
-    "ExudynSystem": "analyses.exudyn_system",
-    "FunctionSystem": "analyses.system",
+    "DynamicSystem": "systems.system",
+    "ExudynSystem": "systems.exudyn_system",
+    "FunctionSystem": "systems.system",
     "LateralParameters": "vehicles.lateral_wheelset",
     "LateralWheelset": "vehicles.lateral_wheelset",
     "Profile": "profiles",
@@ -37,23 +33,23 @@ _PLACES = {
     "WheelsetItems": "coupling.create",
     "WheelsetOnFrame": "vehicles.wheelset_on_frame",
     "contact_forces": "contact.wheelset_contact",
-    "contact_geometry": "contact.rigid",
+    "contact_geometry": "geometry.rigid",
     "create_wheelset": "coupling.create",
     "creep_force": "creep",
-    "critical_disturbance": "analyses.disturbance",
+    "critical_disturbance": "stability.hunting.disturbance",
     "dtu_truck": "vehicles.truck",
-    "equivalent_conicity": "analyses.conicity",
-    "hopf_points": "analyses.linear",
-    "limit_cycles": "analyses.limit_cycles",
-    "linear_critical_speed": "analyses.linear",
-    "linearise": "analyses.linear",
+    "equivalent_conicity": "geometry.conicity",
+    "hopf_points": "stability.linear.critical_speed",
+    "limit_cycles": "stability.hunting.limit_cycles",
+    "linear_critical_speed": "stability.linear.critical_speed",
+    "linearise": "stability.linear.critical_speed",
     "load_profile": "profiles",
     "load_settings": "front.settings",
-    "nonlinear_critical_speed": "analyses.nonlinear",
+    "nonlinear_critical_speed": "stability.hunting.nonlinear",
     "paper_parameters": "vehicles.lateral_wheelset",
-    "piecewise_geometry": "contact.piecewise",
-    "quasi_static_descent": "analyses.descent",
-    "root_locus": "analyses.linear",
+    "piecewise_geometry": "geometry.piecewise",
+    "quasi_static_descent": "stability.hunting.descent",
+    "root_locus": "stability.linear.critical_speed",
     "save_profile": "profiles",
 }
 

@@ -1,56 +1,150 @@
-"""Compiled kernels on disk: dropped when any source changes, warmed up on demand.
+"""Compiled kernels: the decorator that makes them, and the cache that keeps them.
 
-numba keeps compiled code beside the sources and looks only at the file of the function itself; a
-kernel that calls a changed function of another file would stay as it was. So the compiled files
-of this package carry a stamp over all its sources, and go when it no longer fits.
+numba keeps compiled code under the content of the function's own file. A kernel that calls a
+changed function of another file would then be used as it was. Here a kernel is kept under the
+content of its file and of every file of the package that it imports, directly or not, with the
+versions of numba and numpy: changed callees are compiled anew, nothing has to be deleted, and two
+versions of the package side by side do not disturb each other. (numba adds the processor's name.)
+
+Place: NUMBA_CACHE_DIR if set, otherwise the user's cache folder; where neither can be written,
+kernels are compiled in memory at every start.
 """
 
 from __future__ import annotations
 
 import hashlib
-import sys
+import logging
+import re
 import time
+from functools import cache
+from importlib.metadata import version
 from pathlib import Path
+from typing import Any
+
+import numba
+from numba.core import caching, config
+from numba.misc.appdirs import AppDirs
 
 PACKAGE = Path(__file__).parent
-STAMP = PACKAGE / "__pycache__" / "kernels.stamp"
+_log = logging.getLogger(__name__)
+_IMPORT = re.compile(
+    rf"^(?:from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({PACKAGE.name}[\w.]*))",
+    re.MULTILINE,
+)
 
 
-def drop_stale_kernels() -> bool:
-    """Delete the package's compiled kernels if a source has changed; True if any went.
+def _file_of(module: str) -> Path | None:
+    path = PACKAGE.joinpath(*module.split(".")[1:])
+    for candidate in (path.with_suffix(".py"), path / "__init__.py"):
+        if candidate.exists():
+            return candidate
+    return None
 
-    A place that cannot be written to is left alone: numba then compiles in memory or elsewhere.
+
+@cache
+def _source(path: Path) -> tuple[bytes, tuple[Path, ...]]:
+    """Content of a file of the package, and the files of the package that it imports."""
+    text = path.read_text(encoding="utf-8")
+    names: list[str] = []
+    for package, members, module in _IMPORT.findall(text):
+        names.append(package or module)
+        names += [f"{package}.{member}" for member in re.findall(r"\w+", members) if package]
+    files = {file for name in names if name != PACKAGE.name and (file := _file_of(name))}
+    return text.encode(), tuple(sorted(files))
+
+
+@cache
+def source_digest(path: Path) -> str:
+    """Digest of what compiled code of the file at `path` depends on."""
+    found = {path}
+    waiting = [path]
+    while waiting:
+        for file in _source(waiting.pop())[1]:
+            if file not in found:
+                found.add(file)
+                waiting.append(file)
+    digest = hashlib.sha256(f"numba {numba.__version__} numpy {version('numpy')}".encode())
+    for file in sorted(found):
+        digest.update(f"\n{file.relative_to(PACKAGE).as_posix()}\n".encode())
+        digest.update(_source(file)[0])
+    return digest.hexdigest()
+
+
+class _Locator(caching._CacheLocator):
+    """Tells numba where a kernel of this package is kept."""
+
+    def __init__(self, function: Any, file: str) -> None:
+        self._line = function.__code__.co_firstlineno
+        self._digest = source_digest(Path(file))
+        given: str = getattr(config, "CACHE_DIR", "")
+        folder = given or AppDirs("exudyn_wheelset", appauthor=False).user_cache_dir
+        self._folder = str(Path(folder, f"{Path(file).stem}-{self._digest[:20]}"))
+
+    def get_cache_path(self) -> str:
+        return self._folder
+
+    def get_source_stamp(self) -> str:
+        return self._digest
+
+    def get_disambiguator(self) -> str:
+        return str(self._line)
+
+    @classmethod
+    def from_function(cls, py_func: Any, py_file: str) -> _Locator | None:
+        if PACKAGE not in Path(py_file).parents:
+            return None
+        locator = cls(py_func, py_file)
+        try:
+            locator.ensure_cache_path()
+        except OSError:
+            return None
+        return locator
+
+
+_Implementation: Any = caching.FunctionCache._impl_class
+
+
+class _Kept(_Implementation):
+    _locator_classes = (_Locator,)
+
+
+class _Cache(caching.FunctionCache):
+    _impl_class = _Kept
+    _said = False
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        kept = super().load_overload(sig, target_context)
+        if kept is None and not _Cache._said:
+            _Cache._said = True
+            _log.warning("compiling the kernels, once: up to a minute")
+        return kept
+
+
+def compiled(function: Any = None, **options: Any) -> Any:
+    """Compile a function of this package with numba, division by zero as in numpy, and keep it.
+
+    Used bare or with options of numba.njit, such as inline="always".
     """
-    digest = hashlib.sha256()
-    for path in sorted(PACKAGE.rglob("*.py")):
-        state = path.stat()
-        digest.update(f"{path.relative_to(PACKAGE)} {state.st_size} {state.st_mtime_ns}".encode())
-    stamp = digest.hexdigest()
-    try:
-        if STAMP.exists() and STAMP.read_text(encoding="ascii") == stamp:
-            return False
-        stale = [*PACKAGE.rglob("*.nbi"), *PACKAGE.rglob("*.nbc")]
-        for path in stale:
-            path.unlink(missing_ok=True)
-        STAMP.parent.mkdir(exist_ok=True)
-        STAMP.write_text(stamp, encoding="ascii")
-    except OSError:
-        return False
-    return bool(stale)
+    if function is None:
+        return lambda function: compiled(function, **options)
+    dispatcher = numba.njit(error_model="numpy", **options)(function)
+    if dispatcher is not function:
+        try:
+            dispatcher._cache = _Cache(function)
+        except RuntimeError:
+            _log.info("no folder to keep compiled kernels in: they are compiled at every start")
+    return dispatcher
 
 
 def warm_up() -> float:
     """Load or compile the kernels of a wheelset on its rails; return the seconds it took.
 
-    Compiling happens once after installation, with a word on the error stream; loading takes a
-    few tenths of a second.
+    Compiling happens once after installation; loading takes a few tenths of a second.
     """
     start = time.perf_counter()
-    if not any((PACKAGE / "contact").rglob("*.nbi")):
-        print("compiling the kernels, once: half a minute or so", file=sys.stderr, flush=True)
     from exudyn_wheelset.contact.descriptions import Track, Wheelset
-    from exudyn_wheelset.contact.rigid import contact_geometry
     from exudyn_wheelset.contact.wheelset_contact import contact_forces
+    from exudyn_wheelset.geometry.rigid import contact_geometry
 
     wheelset = Wheelset(mass=1e3, inertia=(500, 100, 500), radius=0.46, wheel="S1002")
     track = Track(rail="UIC60")

@@ -33,20 +33,20 @@ from typing import Any
 import matplotlib
 import numpy as np
 
-from exudyn_wheelset.analyses.branch import Branch, column_index
-from exudyn_wheelset.analyses.continuation import ContinuationSettings
-from exudyn_wheelset.analyses.descent import Descent, quasi_static_descent
-from exudyn_wheelset.analyses.disturbance import CriticalDisturbances, critical_disturbance
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import CriticalPoint, hopf_points
-from exudyn_wheelset.analyses.settling import watched_index
-from exudyn_wheelset.analyses.system import DynamicSystem
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.stability.hunting.branch import Branch, column_index
+from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
+from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.settling import watched_index
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, hopf_points
+from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.catalogue import CATALOGUE, entry, vehicle_system
 
 matplotlib.use("Agg")

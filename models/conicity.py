@@ -24,14 +24,14 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.analyses.conicity import METHODS, equivalent_conicity, kinematic_oscillation
-from exudyn_wheelset.analyses.rolling_radius import contact_range, level_contact_geometry
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import ContactGeometry, contact_geometry
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.contact_plots import contact_figure, flange_contact
 from exudyn_wheelset.front.output import write_csv, write_figure
 from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity, kinematic_oscillation
+from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+from exudyn_wheelset.geometry.rolling_radius import contact_range, level_contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile
 
 ProfileSource = Profile | str | PathLike

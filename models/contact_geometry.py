@@ -22,17 +22,17 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.piecewise import (
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.front.output import write_csv, write_figure, write_json
+from exudyn_wheelset.front.plots import draw_contact_geometry, draw_wheels_on_rails, new_figure
+from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.geometry.piecewise import (
     COLUMNS,
     PiecewiseGeometry,
     geometry_columns,
     piecewise_geometry,
 )
-from exudyn_wheelset.contact.rigid import ContactGeometry, contact_geometry
-from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.output import write_csv, write_figure, write_json
-from exudyn_wheelset.front.plots import draw_contact_geometry, draw_wheels_on_rails, new_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
 
 STEP = 1.0e-5
 COMPARED_SHIFTS = 41

@@ -20,14 +20,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from exudyn_wheelset.analyses.branch import Branch
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import CriticalPoint, linear_critical_speed
-from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.analyses.system import DynamicSystem
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.stability.hunting.branch import Branch
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, linear_critical_speed
+from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES, cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 

@@ -20,13 +20,6 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorBody
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
-from exudyn_wheelset.analyses.linear import (
-    CriticalPoint,
-    linear_critical_speed,
-    linearise,
-    root_locus,
-)
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_csv, write_figure, write_json
@@ -40,6 +33,13 @@ from exudyn_wheelset.front.plots import (
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
+from exudyn_wheelset.stability.linear.critical_speed import (
+    CriticalPoint,
+    linear_critical_speed,
+    linearise,
+    root_locus,
+)
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.truck import Truck, TruckItems, dtu_truck
 from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame
 

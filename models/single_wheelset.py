@@ -20,11 +20,8 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorBody
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
-from exudyn_wheelset.analyses.linear import CriticalPoint, linear_critical_speed, linearise
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.coupling.create import SENSOR_VALUES, WheelsetItems
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_csv, write_figure, write_json
@@ -32,6 +29,13 @@ from exudyn_wheelset.front.plots import draw_wheelset_motion, new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.stability.linear.critical_speed import (
+    CriticalPoint,
+    linear_critical_speed,
+    linearise,
+)
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles import paper_wheelset as paper
 from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame
 

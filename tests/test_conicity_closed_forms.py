@@ -17,10 +17,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from scipy.special import ellipk
 
-from exudyn_wheelset.analyses.conicity import equivalent_conicity, kinematic_oscillation
-from exudyn_wheelset.analyses.rolling_radius import contact_range, rolling_radius_difference
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import ContactError, WheelsetError
+from exudyn_wheelset.geometry.conicity import equivalent_conicity, kinematic_oscillation
+from exudyn_wheelset.geometry.rolling_radius import contact_range, rolling_radius_difference
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
 
 AMPLITUDES = np.array([1.0, 2.0, 3.0, 5.0, 8.0]) * 1e-3

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from exudyn_wheelset.analyses.conicity import equivalent_conicity
-from exudyn_wheelset.analyses.rolling_radius import rolling_radius_difference
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
+from exudyn_wheelset.geometry.conicity import equivalent_conicity
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.geometry.rolling_radius import rolling_radius_difference
 from exudyn_wheelset.profiles import load_profile
 
 REPOSITORY = Path(__file__).resolve().parents[1]

@@ -15,15 +15,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.integrate import solve_ivp
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
-from exudyn_wheelset.analyses.linear import (
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.stability.linear.critical_speed import (
     divergence_points,
     hopf_points,
     linear_critical_speed,
     linearise,
 )
-from exudyn_wheelset.analyses.system import DynamicSystem
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.cooperrider_bogie import (
     SCALES,
     CooperriderBogie,

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 

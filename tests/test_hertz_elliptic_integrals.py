@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
-from exudyn_wheelset.normal.hertz import hertz_from_approach, hertz_from_load
+from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 
 STEEL = {"shear_modulus": 82e9, "poisson": 0.28}
 

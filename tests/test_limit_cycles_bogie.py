@@ -9,14 +9,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_wheelset.analyses.collocation import Collocation
-from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
-from exudyn_wheelset.analyses.descent import quasi_static_descent
-from exudyn_wheelset.analyses.disturbance import critical_disturbance
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import hopf_points
-from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.analyses.symmetry import mirror_of_mode
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
+from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode
+from exudyn_wheelset.stability.linear.critical_speed import hopf_points
 from exudyn_wheelset.vehicles.cooperrider_bogie import cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 

@@ -8,16 +8,16 @@ import json
 import numpy as np
 import pytest
 
-from exudyn_wheelset.analyses.branch import Branch
-from exudyn_wheelset.analyses.continuation import ContinuationSettings
-from exudyn_wheelset.analyses.descent import Descent, quasi_static_descent
-from exudyn_wheelset.analyses.disturbance import CriticalDisturbances, critical_disturbance
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import hopf_points
-from exudyn_wheelset.analyses.nonlinear import NoLimitCycleError, nonlinear_critical_speed
-from exudyn_wheelset.analyses.settling import Settling
-from exudyn_wheelset.analyses.system import FunctionSystem
 from exudyn_wheelset.errors import AnalysisError, ContactError
+from exudyn_wheelset.stability.hunting.branch import Branch
+from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
+from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.nonlinear import NoLimitCycleError, nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.settling import Settling
+from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.systems.system import FunctionSystem
 
 
 def normal_form(edge=np.inf, at_edge=None, calls_left=None, name="normal form"):

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from exudyn_wheelset.analyses.collocation import Collocation
-from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.orbit import balanced_mesh, orbit_from_samples
-from exudyn_wheelset.analyses.system import FunctionSystem
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.orbit import balanced_mesh, orbit_from_samples
+from exudyn_wheelset.systems.system import FunctionSystem
 
 
 def _derivatives(states, mu):

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from exudyn_wheelset.analyses.linear import (
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.critical_speed import (
     divergence_points,
     hopf_points,
     linear_critical_speed,
@@ -16,8 +17,7 @@ from exudyn_wheelset.analyses.linear import (
     root_locus,
     stability_changes,
 )
-from exudyn_wheelset.analyses.system import FunctionSystem, SimulationError, as_system
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.system import FunctionSystem, SimulationError, as_system
 
 
 def linear_system(*blocks, name="blocks"):

@@ -22,10 +22,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
-from exudyn_wheelset.analyses.linear import linearise
-from exudyn_wheelset.analyses.system import SimulationError
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.critical_speed import linearise
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.system import SimulationError
 
 MASS, TRANSVERSE, POLAR, ARM, RADIUS = 100.0, 60.0, 25.0, 1.0, 0.5
 STIFFNESS = (1.0e5, 2.0e5, 4.0e5)

@@ -15,8 +15,8 @@ import pytest
 from exudyn.utilities import Force, MarkerBodyRigid, RigidBodyInertia, Torque
 from numba import njit
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
-from exudyn_wheelset.analyses.linear import linear_critical_speed, linearise
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed, linearise
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 
 RADIUS, CONICITY, HALF_GAUGE, LOAD, FRICTION = 0.45, 0.05, 0.75, 8.0e4, 0.3
 CREEP_STIFFNESS, CONTACT_STIFFNESS, CONTACT_DAMPING = 1.0e7, 5.0e8, 1.0e4

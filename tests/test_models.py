@@ -21,12 +21,12 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_atomically
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import measure_growth, set_duration
+from exudyn_wheelset.geometry.rigid import contact_geometry
 
 ROOT = Path(__file__).resolve().parents[1]
 SCRIPTS = sorted(path.stem for path in (ROOT / "models").glob("*.py"))

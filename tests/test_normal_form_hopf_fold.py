@@ -11,12 +11,12 @@ multiplier is exp(T (2 r^2 - 4 r^4)) whatever c is. A third state z' = -s z adds
 import numpy as np
 import pytest
 
-from exudyn_wheelset.analyses.continuation import ContinuationSettings
-from exudyn_wheelset.analyses.disturbance import critical_disturbance
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import hopf_points
-from exudyn_wheelset.analyses.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.analyses.system import FunctionSystem
+from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
+from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.systems.system import FunctionSystem
 
 DECAY = 0.3
 

@@ -12,12 +12,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_wheelset.analyses.linear import linear_critical_speed, linearise
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.creep import kalker_coefficients
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed, linearise
 from exudyn_wheelset.vehicles.truck import Truck, dtu_truck
 from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
 

@@ -16,10 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
-from exudyn_wheelset.analyses.conicity import METHODS, equivalent_conicity
-from exudyn_wheelset.analyses.rolling_radius import rolling_radius_difference
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
+from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.geometry.rolling_radius import rolling_radius_difference
 from exudyn_wheelset.profiles import load_profile
 
 HERE = Path(__file__).resolve().parent

@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from exudyn_wheelset.analyses.linear import root_locus
 from exudyn_wheelset.front.animation import Camera, render, show_rails
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, draw_root_locus, tidy
+from exudyn_wheelset.stability.linear.critical_speed import root_locus
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parents[1] / "models"))

@@ -5,10 +5,10 @@ a0 + a1 u + a2 u^2 + a3 u^3 with u [m] from the segment's start. Beyond its ends
 straight, so that no pose gives anything but finite numbers.
 """
 
-from numba import njit
+from exudyn_wheelset.compilation import compiled
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def curve_point(data, offset, spacing, segments, arc):
     """Return (y, y', y'', z, z', z'') [m, -, 1/m] of the curve at arc length `arc` [m]."""
     last = segments - 1

@@ -15,8 +15,7 @@ The right side is computed as the left side of the mirrored wheelset and mirrore
 symmetry holds to rounding.
 """
 
-from numba import njit
-
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.layout import (
     COUNT_LEFT,
     DAMPING,
@@ -63,7 +62,7 @@ from exudyn_wheelset.creep import creep_kernel
 LEAST_SPEED = 0.1
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def _patch_creep(
     law, creep_x, creep_y, spin, factor, parameters, law_parameters, result, row, out, count
 ):  # fmt: skip
@@ -102,7 +101,7 @@ def _patch_creep(
     return fx, fy, mz
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def wheelset_forces(
     table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result
 ):  # fmt: skip

@@ -16,8 +16,7 @@ Frame: track frame; both sides are computed as the left one (the right one is mi
 
 import math
 
-from numba import njit
-
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.tables import (
     RADIUS,
@@ -31,7 +30,7 @@ from exudyn_wheelset.contact.tables import (
 )
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
     """Return (x, y, z, normal_y, normal_z) of the contact locus, the normal into the rail."""
     q = 1.0 - lx * lx
@@ -49,7 +48,7 @@ def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
     )
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def wheel_section(table, side, arc, cy, cz, lx, ly, lz):
     """Contact-locus point at the wheel's arc length in the y-z plane: (y, z, ny, nz, curvature).
 
@@ -81,7 +80,7 @@ def wheel_section(table, side, arc, cy, cz, lx, ly, lz):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
     """Contact-locus point with all about it: (x, y, z, ny, nz, radius, wheel_y, curvature).
 
@@ -98,7 +97,7 @@ def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
     return x, py, pz, ny, nz, arm, y, y1 * z2 - z1 * y2
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def rail_foot(table, side, py, pz, arc):
     """Foot of the perpendicular from (py, pz) on the rail, from a near guess of its arc length.
 

@@ -7,8 +7,8 @@ jumps at every junction of arcs; this one is smooth over the shift.
 """
 
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.search import (
     LOBE_ARC,
     LOBE_CURVATURE,
@@ -25,7 +25,7 @@ from exudyn_wheelset.contact.search import (
 from exudyn_wheelset.contact.tables import HEADER, MOST_NODES, RADIUS
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def patch_half_curvatures(table, y, roll, z, approach):
     """Return B (n, 2) [1/m] of the deepest patch, left and right, for rigid poses at yaw zero.
 

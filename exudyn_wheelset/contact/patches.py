@@ -2,7 +2,7 @@
 
 The normal force of a lobe (search.py) is N(delta, A, B): Hertz's with the averaged curvature
 ("hertz"), Hertz's with the curvature at the deepest point ("hertz-local"), or by virtual
-penetration (normal/virtual_penetration.py).
+penetration (virtual_penetration.py).
 
 Two neighbouring lobes with penetrations delta_1, delta_2 become one patch when the valley between
 them disappears. With the separation s (search.py), the patch of lobe j carries
@@ -17,9 +17,9 @@ Frame: track frame, left side.
 
 import math
 
-from numba import njit
-
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
+from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
     HERTZ_LOCAL,
     NORMAL,
@@ -69,11 +69,10 @@ from exudyn_wheelset.contact.search import (
     zone_moments,
 )
 from exudyn_wheelset.contact.tables import DATUM, RAIL, RAIL_SEGMENTS, RAIL_SPACING
-from exudyn_wheelset.normal.hertz import hertz_from_approach, hertz_from_load
-from exudyn_wheelset.normal.virtual_penetration import virtual_penetration_force, zone_integrals
+from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_force, zone_integrals
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _ellipse(zone, lobe_depth, radius, nz, parameters):
     """Hertz ellipse of a zone's integral: (normal_force, a, b)."""
     extent = VIRTUAL * lobe_depth
@@ -84,7 +83,7 @@ def _ellipse(zone, lobe_depth, radius, nz, parameters):
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _virtual_ellipse(first, second, zone, depth, radius, nz, parameters):
     """Force by virtual penetration and Hertz's ellipse under that force: (normal_force, a, b)."""
     modulus, poisson = parameters[SHEAR_MODULUS], parameters[POISSON]
@@ -95,7 +94,7 @@ def _virtual_ellipse(first, second, zone, depth, radius, nz, parameters):
     return force, a, b
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes):
     """Integrals of virtual penetration over lobe k's zone above (1 - VIRTUAL) deepest."""
     depth = lobes[k, LOBE_PENETRATION]
@@ -108,7 +107,7 @@ def _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes
     )  # fmt: skip
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _merged_integrals(
     table, side, k, other, deepest, centre, along, cy, cz, lx, ly, lz, lobes
 ):  # fmt: skip
@@ -121,13 +120,13 @@ def _merged_integrals(
     return first + more, second + further
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def _unit(y, z):
     length = math.sqrt(y * y + z * z)
     return y / length, z / length
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _lobe_moments(table, side, k, deepest, slot, cy, cz, lx, ly, lz, lobes):
     """Moments of lobe k over the zone above (1 - VIRTUAL) deepest, kept in its row at `slot`."""
     depth = lobes[k, LOBE_PENETRATION]
@@ -151,7 +150,7 @@ def _lobe_moments(table, side, k, deepest, slot, cy, cz, lx, ly, lz, lobes):
         lobes[k, MERGED : MERGED + 5] = lobes[k, OWN : OWN + 5]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes):
     """Column where lobe k's moments below the depth of its merged patch stand."""
     if lobes[k, LOBE_PENETRATION] == deepest:
@@ -161,7 +160,7 @@ def _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes):
     return MERGED
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes, depths):
     """Normal contact of one side: fills patch rows with geometry and elastic force; their count."""
     count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths)

@@ -22,8 +22,7 @@ Frame: track frame, left side; lengths in metres.
 
 import math
 
-from numba import njit
-
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.locus import rail_foot, wheel_section
 from exudyn_wheelset.contact.tables import (
     GRID,
@@ -57,7 +56,7 @@ GAUSS = (
 )
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def probe(table, side, arc, foot, cy, cz, lx, ly, lz):
     """Penetration at the wheel's arc length: (penetration, sine, 2 B, foot).
 
@@ -69,7 +68,7 @@ def probe(table, side, arc, foot, cy, cz, lx, ly, lz):
     return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
     """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
     py, _, _, _, _ = wheel_section(table, side, arc, cy, cz, lx, ly, lz)
@@ -80,7 +79,7 @@ def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
     return table[base] + (place - cell) * (table[base + 1] - table[base])
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
     """Wheel arc length in [low, high] where the tangents agree: a lobe (sign 1) or valley (-1).
 
@@ -111,7 +110,7 @@ def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
     return arc, foot, penetration, bend
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@compiled(fastmath=True)
 def _scan(
     lateral, radii, slopes, flatness, heights, depths,
     cy, cz, lx, ly, lz, low, high, start, per_step,
@@ -140,7 +139,7 @@ def _scan(
         depths[k] = inside * ((height - pz) * flatness[k] + 1.0) - 1.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
     """Fill `lobes` (MOST_LOBES, LOBE_WIDTH) for one side; return their number.
 
@@ -210,7 +209,7 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
     return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first, final - 1)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _note_lobe(lobes, found, node, before, depth, after, valley_node):
     """Store a candidate: node numbers and the depths around it, until it is refined."""
     if found == MOST_LOBES:
@@ -232,7 +231,7 @@ def _note_lobe(lobes, found, node, before, depth, after, valley_node):
     return found + 1
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@compiled(inline="always")
 def _vertex(left, middle, right, lobes, k):
     """Vertex of the parabola through the depths at three nodes."""
     fall = lobes[k, LOBE_PENETRATION] - lobes[k, LOBE_FOOT]
@@ -242,7 +241,7 @@ def _vertex(left, middle, right, lobes, k):
     return min(max(middle + shift, left), right)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node):
     nodes = int(table[side + NODES])
     kept = 0
@@ -289,7 +288,7 @@ def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, fin
     return kept
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz):
     """Wheel arc between `arc` (a maximum) and `limit` where the penetration falls to `level`."""
     direction = 1.0 if limit > arc else -1.0
@@ -326,7 +325,7 @@ def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx
     return arc + direction * distance
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, cy, cz, lx, ly, lz):
     """Integrals over the zone around `arc` where penetration exceeds `level`.
 

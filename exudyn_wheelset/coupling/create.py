@@ -214,7 +214,7 @@ def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:
 
 
 def _rest_height(wheelset: Wheelset, track: Track) -> float:
-    from exudyn_wheelset.contact.rigid import contact_geometry
+    from exudyn_wheelset.geometry.rigid import contact_geometry
 
     return float(contact_geometry(wheelset, track, [0.0]).z[0])
 

@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.forces import wheelset_forces
 from exudyn_wheelset.contact.search import MOST_LOBES
@@ -57,7 +57,7 @@ class RailElasticity:
         )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def side_forces(result, forces):
     """Fill forces (4): lateral and vertical force [N] on the left, then on the right wheel."""
     for hand in range(2):
@@ -73,7 +73,7 @@ def side_forces(result, forces):
             forces[2 * hand + 1] += nz * normal - ny * lateral
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def elastic_forces(
     table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result,
     elasticity, shifts, rates,

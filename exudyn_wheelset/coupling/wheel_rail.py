@@ -24,8 +24,8 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.forces import wheelset_forces
@@ -55,7 +55,7 @@ _PARAMETERS = slice(35, 35 + kernel.PARAMETER_COUNT)
 _RESULT = slice(35 + kernel.PARAMETER_COUNT, None)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def body_wrench(q, v, first, table, state, part):
     """Return part 0 (force [N]) or 1 (torque [N m]) of the wrench at system coordinates q, v.
 

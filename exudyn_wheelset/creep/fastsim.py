@@ -34,9 +34,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
@@ -56,7 +56,7 @@ LAW = CreepLaw(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _slip(
     p_x: float,
     p_y: float,
@@ -112,7 +112,7 @@ def _slip(
     return share * drive_x + keep * p_x, share * drive_y + keep * p_y
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def fastsim(
     creep_x: float,
     creep_y: float,

@@ -19,7 +19,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from exudyn_wheelset.compilation import compiled
 
 # rows: b/a = 0.1 ... 0.9, then a/b = 1.0 ... 0.1; columns: C11, C22, C23, C33; nu = 0, 1/4, 1/2
 _LONG = [
@@ -51,7 +52,7 @@ TABLE_END = 0.1
 ASYMPTOTE_BEGIN = 0.08
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def kalker_asymptotes(a_over_b: float, poisson: float) -> tuple[float, float, float, float]:
     """Give (C11, C22, C23, C33) of a very narrow patch, a/b or b/a far below 1.
 
@@ -77,7 +78,7 @@ def kalker_asymptotes(a_over_b: float, poisson: float) -> tuple[float, float, fl
     return c11, c22, c23, c33
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _table_coefficients(wide: int, g: float, poisson: float) -> tuple[float, float, float, float]:
     """Interpolate the table for 0.1 <= g <= 1; wide = 1 for a <= b, 0 for a > b."""
     position = 10.0 * g - 1.0
@@ -108,7 +109,7 @@ def _table_coefficients(wide: int, g: float, poisson: float) -> tuple[float, flo
     return c11, c22, c23, c33
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def kalker_coefficients(a: float, b: float, poisson: float) -> tuple[float, float, float, float]:
     """Give Kalker's coefficients (C11, C22, C23, C33) of an elliptic patch.
 

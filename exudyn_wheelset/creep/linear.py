@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.saturation import bounded, linear_force, linear_spin_moment
 
@@ -23,7 +23,7 @@ LAW = CreepLaw(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def linear(
     creep_x: float,
     creep_y: float,

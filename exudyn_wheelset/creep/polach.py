@@ -26,9 +26,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded, saturated_spin_moment
@@ -38,7 +38,7 @@ LAW = CreepLaw("polach", 3, "Polach 1999", (SPIN_MOMENT,))
 _EPS_LIMIT = 1e50
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def polach_force(
     creep_x: float,
     creep_y: float,
@@ -89,7 +89,7 @@ def polach_force(
     return force_x, force_y
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def polach(
     creep_x: float,
     creep_y: float,

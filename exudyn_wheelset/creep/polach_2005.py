@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw, CreepParameter
 from exudyn_wheelset.creep.polach import polach_force
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded, saturated_spin_moment
@@ -36,7 +36,7 @@ LAW = CreepLaw(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def polach_2005(
     creep_x: float,
     creep_y: float,

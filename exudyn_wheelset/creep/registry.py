@@ -12,9 +12,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.fastsim import fastsim
 from exudyn_wheelset.creep.law import CreepLaw
@@ -42,7 +42,7 @@ _POLACH = POLACH.number
 _POLACH_2005 = POLACH_2005.number
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def creep_kernel(
     law_number: int,
     creep_x: float,
@@ -133,7 +133,7 @@ def creep_kernel(
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _creep_force_rows(law_number: int, states: NDArray, parameters: NDArray) -> NDArray:
     """Run `creep_kernel` over states (n, 9) and parameters (n, p) or (1, p); gives (n, 3)."""
     forces = np.empty((states.shape[0], 3))

@@ -16,8 +16,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 
 CREEP_LIMIT = 1e50
@@ -25,13 +24,13 @@ LEAST_FRICTION_FORCE = 1e-100
 FULL_TURNING_SLIP = 3.0 * math.pi / 16.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def bounded(creep: float) -> float:
     """Keep a creepage or spin so small that no square of a force in this package overflows."""
     return min(max(creep, -CREEP_LIMIT), CREEP_LIMIT)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def linear_force(
     creep_x: float,
     creep_y: float,
@@ -49,7 +48,7 @@ def linear_force(
     return force_x, force_y
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def cubic_share(u: float) -> float:
     """Give the saturated force as a share of the linear force, which is u times mu N."""
     if u < 3.0:
@@ -57,7 +56,7 @@ def cubic_share(u: float) -> float:
     return 1.0 / u
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def linear_spin_moment(
     creep_y: float, spin: float, a: float, b: float, shear_modulus: float, poisson: float
 ) -> float:
@@ -67,7 +66,7 @@ def linear_spin_moment(
     return shear_modulus * area * (math.sqrt(area) * c23 * creep_y - area * c33 * spin)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def saturated_spin_moment(
     creep_x: float,
     creep_y: float,

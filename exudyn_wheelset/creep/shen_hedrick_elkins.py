@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw
 from exudyn_wheelset.creep.saturation import (
     LEAST_FRICTION_FORCE,
@@ -26,7 +26,7 @@ from exudyn_wheelset.creep.saturation import (
 LAW = CreepLaw("shen-hedrick-elkins", 2, "Shen, Hedrick and Elkins 1983", (SPIN_MOMENT,))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def shen_hedrick_elkins(
     creep_x: float,
     creep_y: float,

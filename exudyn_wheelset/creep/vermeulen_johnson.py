@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
 from numpy.typing import NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw
 from exudyn_wheelset.creep.saturation import (
     LEAST_FRICTION_FORCE,
@@ -27,7 +27,7 @@ LAW = CreepLaw(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def vermeulen_johnson(
     creep_x: float,
     creep_y: float,

@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
-from exudyn_wheelset.contact.rigid import ContactGeometry, ContactSide
 from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, new_figure, tidy
+from exudyn_wheelset.geometry.rigid import ContactGeometry, ContactSide
 from exudyn_wheelset.profiles import Profile
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from exudyn_wheelset.analyses.linear import RootLocus
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.piecewise import COLUMNS, PiecewiseGeometry, geometry_columns
-from exudyn_wheelset.contact.rigid import ContactGeometry
+from exudyn_wheelset.geometry.piecewise import COLUMNS, PiecewiseGeometry, geometry_columns
+from exudyn_wheelset.geometry.rigid import ContactGeometry
+from exudyn_wheelset.stability.linear.critical_speed import RootLocus
 
 LEFT_COLOUR, RIGHT_COLOUR = "#1f6fb4", "#d1495b"
 WHEEL_COLOUR, RAIL_COLOUR, GREY = "#3b4252", "#8a6d3b", "#8a8f98"

@@ -37,10 +37,10 @@ from typing import Any, NamedTuple
 import exudyn as exu
 import numpy as np
 from exudyn.utilities import NodeGenericODE2, ObjectGenericODE2
-from numba import njit
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 
 Array = np.ndarray
 
@@ -170,7 +170,7 @@ def _sum_of_springs(springs: list[tuple[float, list[float]]]) -> Array:
     return matrix
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def contact_forces(
     coordinates: Array, velocities: Array, speed: float, parameters: Array, forces: Array
 ) -> None:

@@ -11,15 +11,15 @@ import math
 from dataclasses import asdict
 
 import numpy as np
-from numba import njit
 
-from exudyn_wheelset.analyses.system import FunctionSystem
+from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.systems.system import FunctionSystem
 from exudyn_wheelset.vehicles.cooperrider_bogie import SCALES, STATE_NAMES, CooperriderBogie
 
 Array = np.ndarray
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _creep_factor(creep: float, friction_force: float, creep_stiffness: float) -> float:
     """Resultant creep force over resultant creep [N]."""
     u = creep_stiffness * creep / friction_force
@@ -28,7 +28,7 @@ def _creep_factor(creep: float, friction_force: float, creep_stiffness: float) -
     return creep_stiffness * (1.0 - u / 3.0 + u * u / 27.0)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _creep_factor_slope(creep: float, friction_force: float, creep_stiffness: float) -> float:
     """Derivative of `_creep_factor` by the creep [N]."""
     u = creep_stiffness * creep / friction_force
@@ -37,7 +37,7 @@ def _creep_factor_slope(creep: float, friction_force: float, creep_stiffness: fl
     return creep_stiffness * creep_stiffness / friction_force * (2.0 * u / 27.0 - 1.0 / 3.0)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _flange_force(lateral: float, stiffness: float, clearance: float) -> float:
     if lateral > clearance:
         return stiffness * (lateral - clearance)
@@ -46,7 +46,7 @@ def _flange_force(lateral: float, stiffness: float, clearance: float) -> float:
     return 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def bogie_rate(x: Array, speed: float, p: Array, rate: Array) -> None:
     """Rate (14,) of the state x (14,), written in place; p (25,) the bogie's fields in order."""
     mw, iw, mf, i_f, ifr, k1, k2, k3, k4, k5, k6, dv, dl, a, b, h1, h2, d1, d2, conicity = p[:20]
@@ -80,7 +80,7 @@ def bogie_rate(x: Array, speed: float, p: Array, rate: Array) -> None:
     rate[13] = (h1 * (a1 + a3) + h2 * a5 - a7) / ifr
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def bogie_jacobian(x: Array, speed: float, p: Array, matrix: Array) -> None:
     """Jacobian (14, 14) of `bogie_rate`, written in place; at the corner of the flange spring the
     side of the dead band is taken."""
@@ -137,7 +137,7 @@ def bogie_jacobian(x: Array, speed: float, p: Array, matrix: Array) -> None:
     matrix[13, 13] -= 2.0 * dv * d2 * d2 / ifr
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _rates(states: Array, speed: float, p: Array) -> Array:
     rates = np.empty_like(states)
     for row in range(states.shape[0]):
@@ -145,7 +145,7 @@ def _rates(states: Array, speed: float, p: Array) -> Array:
     return rates
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _jacobians(states: Array, speed: float, p: Array) -> Array:
     matrices = np.empty((states.shape[0], 14, 14))
     for row in range(states.shape[0]):

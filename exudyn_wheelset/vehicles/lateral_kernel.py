@@ -23,11 +23,11 @@ left out, as section 3 of the paper says.
 import math
 
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.locus import locus_point
 from exudyn_wheelset.creep import creep_kernel
-from exudyn_wheelset.normal.hertz import hertz_from_load
 
 (
     MASS,
@@ -58,7 +58,7 @@ SIDE_COLUMNS = 4
 COLUMN_COUNT = 2 + 2 * SIDE_COLUMNS
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def piecewise_values(breaks, coefficients, y, values):
     """Fill values (columns, 3): value, first and second derivative over y; straight beyond."""
     cell = np.searchsorted(breaks, y) - 1
@@ -82,7 +82,7 @@ def piecewise_values(breaks, coefficients, y, values):
         values[column, 2] = f2 if beyond == 0.0 else 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def lateral_accelerations(state, speed, p, breaks, coefficients, sides):
     """Return (y'', yaw'') [m/s^2, rad/s^2]; fills sides (2, 12) with the forces of either wheel.
 
@@ -197,7 +197,7 @@ def lateral_accelerations(state, speed, p, breaks, coefficients, sides):
     return y_acceleration, yaw_acceleration
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def small_angle_accelerations(state, speed, p, sides):
     """The same for small angles on knife-edge rails, conicity lambda and half distance g_a.
 

@@ -17,16 +17,16 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.analyses.system import DynamicSystem
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
-from exudyn_wheelset.contact.piecewise import piecewise_geometry, with_short_cells
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.normal.hertz import hertz_from_load
+from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_cells
+from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
+from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles import lateral_kernel as kernel
 
 CODES = ("mohan", "idealized", "profiled")

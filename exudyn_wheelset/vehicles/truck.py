@@ -34,13 +34,13 @@ from exudyn.utilities import (
 )
 from scipy.optimize import brentq
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.wheelset_on_frame import GRAVITY, Suspension
 

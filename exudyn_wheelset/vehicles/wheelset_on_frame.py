@@ -15,11 +15,11 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import LoadForceVector, MarkerBodyRigid, ObjectConnectorCartesianSpringDamper
 
-from exudyn_wheelset.analyses.exudyn_system import ExudynSystem
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import contact_geometry
 from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 
 GRAVITY = 9.81

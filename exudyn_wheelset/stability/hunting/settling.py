@@ -21,12 +21,12 @@ from typing import Literal
 
 import numpy as np
 
-from exudyn_wheelset.analyses.branch import column_index
-from exudyn_wheelset.analyses.collocation import Collocation
-from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
-from exudyn_wheelset.analyses.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
-from exudyn_wheelset.analyses.system import Array, DynamicSystem
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.stability.hunting.branch import column_index
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 SAMPLES = 64
 TREND = 8

@@ -10,8 +10,8 @@ from typing import Literal
 
 import numpy as np
 
-from exudyn_wheelset.analyses.system import Array, DynamicSystem
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 # A pair counts as unstable above this fraction of its |eigenvalue|: undamped modes (a spring
 # without damper) have a real part that is rounding of the differences, of either sign.

@@ -24,9 +24,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from exudyn_wheelset.analyses.orbit import Orbit, OrbitError, basis_of, windows_of
-from exudyn_wheelset.analyses.system import DIFFERENCE_STEP, Array, DynamicSystem
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, basis_of, windows_of
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
 
 # One-sided difference step in scales, ten nanometres for a wheelset: above what a contact search
 # resolves, below what bends the slope of a smooth f. Defects are exact, so orbits and folds do not

@@ -23,12 +23,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from exudyn_wheelset.analyses.collocation import Collocation, Condensed, Direction, Functional
-from exudyn_wheelset.analyses.continuation_settings import ContinuationSettings
-from exudyn_wheelset.analyses.corrector import Solution, solve_orbit, speed_row
-from exudyn_wheelset.analyses.linear import CriticalPoint
-from exudyn_wheelset.analyses.orbit import Orbit, OrbitError, balanced_mesh
-from exudyn_wheelset.analyses.system import Array
+from exudyn_wheelset.stability.hunting.collocation import (
+    Collocation,
+    Condensed,
+    Direction,
+    Functional,
+)
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
+from exudyn_wheelset.stability.hunting.corrector import Solution, solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_mesh
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint
+from exudyn_wheelset.systems.system import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,13 +17,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 from scipy.optimize import minimize
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.gap import gap_difference, least_gap
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.tables import (
     DATUM,
@@ -35,6 +34,7 @@ from exudyn_wheelset.contact.tables import (
     contact_tables,
 )
 from exudyn_wheelset.errors import ContactError, WheelsetError
+from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 
 METHODS = ("root", "nelder-mead")
 _ROLL_RANGE = 0.12
@@ -91,7 +91,7 @@ class ContactGeometry:
             return (self.left.second_gap < tolerance) | (self.right.second_gap < tolerance)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _crest(table, y, yaw, direction, one, other):
     """Roll angle between two where direction times the difference is not negative, or NaN.
 
@@ -118,7 +118,7 @@ def _crest(table, y, yaw, direction, one, other):
     return np.nan
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _roll_root(table, y, yaw, guess):
     """Roll angle at which both distances agree, or NaN without contact in range.
 
@@ -174,7 +174,7 @@ def _roll_root(table, y, yaw, guess):
     return 0.5 * (low + high)
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _fill_side(table, side, y, lx, ly, lz, row):
     gap, arc, at, second, second_arc, second_at = least_gap(table, side, y, lx, ly, lz)
     offset = int(table[side + RAIL])
@@ -194,7 +194,7 @@ def _fill_side(table, side, y, lx, ly, lz, row):
     return gap, second - gap if second < np.inf else np.nan
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _geometry(table, y, yaw, order, roll, known, heights, left, right, second):
     """Fill the arrays; `known` says that roll is given and only the points are wanted.
 

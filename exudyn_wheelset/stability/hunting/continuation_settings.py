@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 
-from exudyn_wheelset.analyses.orbit import DEGREE, INTERVALS
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS
 
 
 @dataclass(frozen=True)

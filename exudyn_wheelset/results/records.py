@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.analyses.system import Array, DynamicSystem
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 
 def describe(system: DynamicSystem, method: str, settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -17,8 +17,8 @@ from math import comb
 
 import numpy as np
 
-from exudyn_wheelset.analyses.system import Array
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.system import Array
 
 DEGREE = 4
 INTERVALS = 30

@@ -20,12 +20,17 @@ from typing import Any, Literal
 import numpy as np
 from tqdm import tqdm
 
-from exudyn_wheelset.analyses.branch import column_index
-from exudyn_wheelset.analyses.descent import mode_disturbance
-from exudyn_wheelset.analyses.records import describe, read_record, write_record
-from exudyn_wheelset.analyses.settling import Motion, Settling, typical_period, watched_index
-from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.records import describe, read_record, write_record
+from exudyn_wheelset.stability.hunting.branch import column_index
+from exudyn_wheelset.stability.hunting.descent import mode_disturbance
+from exudyn_wheelset.stability.hunting.settling import (
+    Motion,
+    Settling,
+    typical_period,
+    watched_index,
+)
+from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "disturbance runs"
 Outcome = Literal["hunts", "dies out", "lost contact"]

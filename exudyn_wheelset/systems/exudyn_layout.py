@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.analyses.reduction import CYCLIC, ROTATION
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.reduction import CYCLIC, ROTATION
 
 Array = np.ndarray
 

@@ -14,14 +14,14 @@ from typing import Any, Literal
 
 import numpy as np
 
-from exudyn_wheelset.analyses.branch import Branch
-from exudyn_wheelset.analyses.continuation import ContinuationSettings
-from exudyn_wheelset.analyses.descent import Descent, quasi_static_descent
-from exudyn_wheelset.analyses.limit_cycles import limit_cycles
-from exudyn_wheelset.analyses.linear import CriticalPoint, hopf_points
-from exudyn_wheelset.analyses.settling import Settling
-from exudyn_wheelset.analyses.system import as_system
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.hunting.branch import Branch
+from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
+from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.settling import Settling
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, hopf_points
+from exudyn_wheelset.systems.system import as_system
 
 Method = Literal["continuation", "descent"]
 

@@ -20,8 +20,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.locus import rail_foot, wheel_section
 from exudyn_wheelset.contact.search import VIRTUAL, zone_end
 
@@ -31,7 +31,7 @@ _POINTS = 0.5 * (_POINTS + 1.0)
 _WEIGHTS = 0.5 * _WEIGHTS
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def elliptic_k_minus_e(m):
     """K(m) - E(m) by the arithmetic-geometric mean, 0 <= m < 1."""
     a = 1.0
@@ -49,7 +49,7 @@ def elliptic_k_minus_e(m):
     return 0.5 * math.pi / (a + b) * rest
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def zone_integrals(
     table, side, arc, foot, penetration, bend, left, right, level, origin, along,
     cy, cz, lx, ly, lz,
@@ -83,7 +83,7 @@ def zone_integrals(
     return first, second
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def virtual_penetration_force(first, second, penetration, shear_modulus, poisson):
     """N [N] of the integrals over the whole patch, both bodies of the same material."""
     if second <= 0.0:
@@ -91,7 +91,7 @@ def virtual_penetration_force(first, second, penetration, shear_modulus, poisson
     return math.pi * shear_modulus / (1.0 - poisson) * penetration * first / second
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def zone_outline(
     table, side, arc, foot, penetration, bend, left, right, level, along, count,
     cy, cz, lx, ly, lz,

@@ -14,18 +14,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.locus import wheel_point
-from exudyn_wheelset.contact.rigid import (
-    ContactGeometry,
-    ContactSide,
-    contact_geometry,
-    least_gap,
-)
 from exudyn_wheelset.contact.tables import (
     DATUM,
     HEADER,
@@ -35,6 +29,12 @@ from exudyn_wheelset.contact.tables import (
     contact_tables,
 )
 from exudyn_wheelset.errors import ContactError, WheelsetError
+from exudyn_wheelset.geometry.rigid import (
+    ContactGeometry,
+    ContactSide,
+    contact_geometry,
+    least_gap,
+)
 
 FloatArray = NDArray[np.float64]
 
@@ -113,7 +113,7 @@ def contact_range(
     return ends[0], ends[1]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _level_side(table, side, y, rows):
     """Fill gap and the fields of ContactSide; NaN where there is no contact."""
     offset = int(table[side + RAIL])

@@ -26,7 +26,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from exudyn_wheelset.compilation import compiled
 
 Array = np.ndarray
 
@@ -35,7 +36,7 @@ CYCLIC = -1
 ROTATION = -2
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def expand_state(
     state: Array,
     position_of: Array,
@@ -81,7 +82,7 @@ def expand_state(
         coordinates[start + 2] = factor * e3 - reference[k, 2]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def reduce_coordinates(
     coordinates: Array,
     velocities: Array,
@@ -128,7 +129,7 @@ def reduce_coordinates(
             state[yaw_index + 2] = pitch
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def state_rate(
     state: Array,
     force: Array,

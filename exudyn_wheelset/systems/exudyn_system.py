@@ -20,15 +20,15 @@ import numpy as np
 from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
-from exudyn_wheelset.analyses.exudyn_layout import lay_out
-from exudyn_wheelset.analyses.exudyn_running import (
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.exudyn_layout import lay_out
+from exudyn_wheelset.systems.exudyn_running import (
     QuietExudyn,
     copied_settings,
     failure_words,
 )
-from exudyn_wheelset.analyses.reduction import expand_state, reduce_coordinates, state_rate
-from exudyn_wheelset.analyses.system import Array, DynamicSystem, SimulationError
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
+from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 
 # Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
 DISPLACEMENT_SCALE = 1.0e-3

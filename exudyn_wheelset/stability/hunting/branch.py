@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from exudyn_wheelset.analyses.orbit import Orbit
-from exudyn_wheelset.analyses.records import read_record, write_record
-from exudyn_wheelset.analyses.system import Array
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.records import read_record, write_record
+from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.systems.system import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

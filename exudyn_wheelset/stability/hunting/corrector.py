@@ -13,9 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exudyn_wheelset.analyses.collocation import Collocation, Condensed, Direction, Functional
-from exudyn_wheelset.analyses.orbit import Orbit, OrbitError
-from exudyn_wheelset.analyses.system import Array
+from exudyn_wheelset.stability.hunting.collocation import (
+    Collocation,
+    Condensed,
+    Direction,
+    Functional,
+)
+from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
+from exudyn_wheelset.systems.system import Array
 
 # Below this share of Newton's step, a step is taken as it is.
 SMALLEST_FACTOR = 0.1

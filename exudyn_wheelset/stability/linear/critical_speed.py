@@ -20,7 +20,8 @@ from typing import Any, Literal
 import numpy as np
 from scipy.optimize import brentq, linear_sum_assignment
 
-from exudyn_wheelset.analyses.spectra import (
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.spectra import (
     NEUTRAL_FRACTION,
     NEUTRAL_RATE,
     Kind,
@@ -29,8 +30,7 @@ from exudyn_wheelset.analyses.spectra import (
     oscillatory_pairs,
     real_roots,
 )
-from exudyn_wheelset.analyses.system import Array, as_system
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.systems.system import Array, as_system
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline, PPoly
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.rigid import ContactGeometry, contact_geometry
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
 
 COLUMNS = (
     "roll",

@@ -8,8 +8,8 @@ profile: at a minimum its tangent is the rail's. Frame: track frame, left side, 
 import math
 
 import numpy as np
-from numba import njit
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import grid_foot
@@ -32,7 +32,7 @@ from exudyn_wheelset.contact.tables import (
 _SCAN_WINDOW = 2.0e-4
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _vertical_gap(table, side, arc, cy, lx, ly, lz):
     """Height of the wheel's point above the rail (centre at z = 0), sine between the tangents."""
     _, py, pz, ny, nz, _, _, curvature = wheel_point(table, side, arc, cy, 0.0, lx, ly, lz)
@@ -51,7 +51,7 @@ def _vertical_gap(table, side, arc, cy, lx, ly, lz):
     return pz - z, sine, curvature - (y1 * z2 - z1 * y2), at
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def _refine(table, side, low, high, cy, lx, ly, lz):
     """Local minimum of the vertical gap in [low, high]: (arc, gap, rail arc)."""
     arc = 0.5 * (low + high)
@@ -72,7 +72,7 @@ def _refine(table, side, low, high, cy, lx, ly, lz):
     return arc, gap, at
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def least_gap(table, side, cy, lx, ly, lz):
     """Least vertical distance of one side with the centre at z = 0, and the runner-up.
 
@@ -125,7 +125,7 @@ def least_gap(table, side, cy, lx, ly, lz):
     return best, best_arc, best_at, second, second_arc, second_at
 
 
-@njit(cache=True, error_model="numpy")
+@compiled
 def gap_difference(table, y, roll, yaw):
     """Least distance on the left minus that on the right [m], and the left one."""
     lx = -math.sin(yaw) * math.cos(roll)

@@ -17,22 +17,22 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from exudyn_wheelset.analyses.branch import Branch, Fold, NamedColumns, StabilityChange
-from exudyn_wheelset.analyses.collocation import Collocation
-from exudyn_wheelset.analyses.continuation import (
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.stability.hunting.branch import Branch, Fold, NamedColumns, StabilityChange
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.continuation import (
     ContinuationSettings,
     Point,
     follow,
     hopf_start,
 )
-from exudyn_wheelset.analyses.corrector import solve_orbit, speed_row
-from exudyn_wheelset.analyses.linear import CriticalPoint
-from exudyn_wheelset.analyses.orbit import Orbit
-from exudyn_wheelset.analyses.records import describe
-from exudyn_wheelset.analyses.settling import orbit_near, watched_index
-from exudyn_wheelset.analyses.symmetry import mirror_of_mode, mirror_of_orbit
-from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.stability.hunting.settling import orbit_near, watched_index
+from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of_orbit
+from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint
+from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 
 def limit_cycles(

@@ -24,12 +24,17 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from exudyn_wheelset.analyses.branch import NamedColumns
-from exudyn_wheelset.analyses.linear import linearise
-from exudyn_wheelset.analyses.records import describe, read_record, write_record
-from exudyn_wheelset.analyses.settling import Motion, Settling, typical_period, watched_index
-from exudyn_wheelset.analyses.system import Array, DynamicSystem, as_system
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.records import describe, read_record, write_record
+from exudyn_wheelset.stability.hunting.branch import NamedColumns
+from exudyn_wheelset.stability.hunting.settling import (
+    Motion,
+    Settling,
+    typical_period,
+    watched_index,
+)
+from exudyn_wheelset.stability.linear.critical_speed import linearise
+from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "quasi-static descent"
 
