@@ -14,6 +14,7 @@ except metadata.PackageNotFoundError:
 _PLACES = {
     "AnalysisError": "errors",
     "Branch": "stability.hunting.branch",
+    "Contact": "contact.descriptions",
     "ContactError": "errors",
     "DynamicSystem": "systems.system",
     "ExudynSystem": "systems.exudyn_system",

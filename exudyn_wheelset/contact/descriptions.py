@@ -1,4 +1,4 @@
-"""What a wheelset and a track are: frozen descriptions, validated on creation.
+"""What a wheelset, a track and their contact are: frozen descriptions, validated on creation.
 
 Frames (docs/conventions.md): track frame x forward, y left, z up, origin on the track centre line
 in the plane of the rail tops. A profile is stored for one side, y > 0 towards the field side, and
@@ -7,6 +7,7 @@ mirrored for the right one.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
@@ -14,20 +15,16 @@ from os import PathLike
 import numpy as np
 from scipy.optimize import brentq
 
+from exudyn_wheelset.checking import number, numbers, positive, unknown
+from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
 
 ProfileSource = Profile | str | PathLike
 
 
-def _require_positive(what: str, value: float, unit: str, largest: float) -> None:
-    if not np.isfinite(value) or value <= 0.0:
-        raise WheelsetError(f"{what} = {value!r} {unit}: give a positive number in {unit}")
-    if value > largest:
-        raise WheelsetError(
-            f"{what} = {value!r} {unit} is out of proportion: the largest accepted is "
-            f"{largest:g} {unit}; is it given in {unit}?"
-        )
+# Names of the normal contact models and their numbers in the kernels.
+NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2}
 
 
 def _profile_of_kind(source: ProfileSource, kind: str) -> Profile:
@@ -68,26 +65,88 @@ class Wheelset:
         right_wheel: ProfileSource | None = None,
         right_radius: float | None = None,
     ) -> None:
-        _require_positive("mass", mass, "kg", 1e5)
-        if np.shape(inertia) != (3,):
-            raise WheelsetError(
-                f"inertia = {inertia!r}: give the three numbers (Ix, Iy, Iz) [kg m^2]"
-            )
-        for axis, value in zip("xyz", inertia, strict=True):
-            _require_positive(f"inertia I{axis}", value, "kg m^2", 1e6)
-        _require_positive("radius", radius, "m", 2.0)
-        _require_positive("tape_half_distance", tape_half_distance, "m", 2.0)
-        if right_radius is not None:
-            _require_positive("right_radius", right_radius, "m", 2.0)
         put = object.__setattr__
-        put(self, "mass", float(mass))
-        put(self, "inertia", tuple(float(value) for value in inertia))
-        put(self, "radius", float(radius))
+        put(self, "mass", positive("mass", mass, "kg", 1e5))
+        moments = numbers("inertia (Ix, Iy, Iz)", inertia, 3, "kg m^2")
+        for axis, value in zip("xyz", moments, strict=True):
+            positive(f"inertia I{axis}", value, "kg m^2", 1e6)
+        put(self, "inertia", moments)
+        put(self, "radius", positive("radius", radius, "m", 2.0))
         put(self, "wheel", _profile_of_kind(wheel, "wheel"))
-        put(self, "tape_half_distance", float(tape_half_distance))
+        half_distance = positive("tape_half_distance", tape_half_distance, "m", 2.0)
+        put(self, "tape_half_distance", half_distance)
         right = None if right_wheel is None else _profile_of_kind(right_wheel, "wheel")
         put(self, "right_wheel", right)
-        put(self, "right_radius", None if right_radius is None else float(right_radius))
+        if right_radius is not None:
+            right_radius = positive("right_radius", right_radius, "m", 2.0)
+        put(self, "right_radius", right_radius)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """How wheels and rails press and rub on each other.
+
+    normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
+    point) or "virtual-penetration"; creep: name of a creep law; friction [-]; shear_modulus [Pa];
+    poisson [-]; damping [s/m] of the normal contact, whose force it makes 1 + damping times the
+    closing speed as large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by
+    some 4 % of critical). law_parameters: those of the creep law, by name, here as pairs sorted by
+    name; they may be given as keywords of their own as well.
+    These are the only defaults of a contact in the package. Raises WheelsetError for unknown
+    names, with the nearest known one, and for impossible values.
+    """
+
+    normal: str = "hertz"
+    creep: str = "polach"
+    friction: float = 0.3
+    shear_modulus: float = 82.0e9
+    poisson: float = 0.28
+    damping: float = 0.0
+    law_parameters: tuple[tuple[str, float], ...] = ()
+
+    def __init__(
+        self,
+        normal: str = normal,
+        creep: str = creep,
+        friction: float = friction,
+        shear_modulus: float = shear_modulus,
+        poisson: float = poisson,
+        damping: float = damping,
+        law_parameters: Mapping[str, float] | Iterable[tuple[str, float]] = (),
+        **more_law_parameters: float,
+    ) -> None:
+        if normal not in NORMAL_MODELS:
+            raise unknown("normal contact", normal, list(NORMAL_MODELS))
+        own = {**dict(law_parameters), **more_law_parameters}
+        check_contact_names(creep, own)
+        # Refuses what the law does not take together or in that range.
+        creep_parameters(creep, **own)
+        put = object.__setattr__
+        put(self, "normal", normal)
+        put(self, "creep", creep)
+        put(self, "friction", number("friction", friction, "-", 0.0, 5.0))
+        modulus = number("shear_modulus", shear_modulus, "Pa", 1e6, 1e13, "steel has 82e9 Pa")
+        put(self, "shear_modulus", modulus)
+        put(self, "poisson", number("poisson", poisson, "-", 0.0, 0.5))
+        put(self, "damping", number("damping", damping, "s/m", 0.0, 1e3))
+        put(self, "law_parameters", tuple(sorted((k, float(v)) for k, v in own.items())))
+
+
+CONTACT_NUMBERS = ("normal", "creep", "friction", "shear_modulus", "poisson", "damping")
+
+
+def check_contact_names(creep: str, names: Iterable[str], others: Iterable[str] = ()) -> None:
+    """Raise WheelsetError for a name that is neither the creep law's nor a contact's own.
+
+    The message offers the nearest of the law's parameters, the contact's numbers and `others`,
+    the further keywords of the function that was called.
+    """
+    law = creep_law(creep)
+    of_law = [*(parameter.name for parameter in law.parameters), *law.shorthands]
+    for name in names:
+        if name not in of_law:
+            known = [*of_law, *CONTACT_NUMBERS, *others]
+            raise unknown(f"parameter of creep law {creep!r}, or option", name, known)
 
 
 @dataclass(frozen=True)
@@ -131,29 +190,21 @@ class Track:
         datum_half_distance: float | None = None,
         origin_half_distance: float | None = None,
     ) -> None:
-        _require_positive("gauge", gauge, "m", 3.0)
-        _require_positive("gauge_depth", gauge_depth, "m", 0.05)
-        if not np.isfinite(inclination) or abs(inclination) > 0.2:
-            raise WheelsetError(
-                f"inclination = {inclination!r}: give a slope within +-0.2, such as 1/40"
-            )
         if datum_half_distance is not None and origin_half_distance is not None:
             raise WheelsetError("give datum_half_distance or origin_half_distance, not both")
+        put = object.__setattr__
+        put(self, "rail", _profile_of_kind(rail, "rail"))
+        put(self, "gauge", positive("gauge", gauge, "m", 3.0))
+        put(self, "gauge_depth", positive("gauge_depth", gauge_depth, "m", 0.05))
+        slope = number("inclination", inclination, "-", -0.2, 0.2, "a slope such as 1/40")
+        put(self, "inclination", slope)
+        right = None if right_rail is None else _profile_of_kind(right_rail, "rail")
+        put(self, "right_rail", right)
         for what, value in (
             ("datum_half_distance", datum_half_distance),
             ("origin_half_distance", origin_half_distance),
         ):
-            if value is not None:
-                _require_positive(what, value, "m", 2.0)
-        put = object.__setattr__
-        put(self, "rail", _profile_of_kind(rail, "rail"))
-        put(self, "gauge", float(gauge))
-        put(self, "gauge_depth", float(gauge_depth))
-        put(self, "inclination", float(inclination))
-        right = None if right_rail is None else _profile_of_kind(right_rail, "rail")
-        put(self, "right_rail", right)
-        put(self, "datum_half_distance", datum_half_distance)
-        put(self, "origin_half_distance", origin_half_distance)
+            put(self, what, None if value is None else positive(what, value, "m", 2.0))
 
     @cached_property
     def left_placement(self) -> RailPlacement:

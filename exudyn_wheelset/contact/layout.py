@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 from exudyn_wheelset.contact.search import LOBE_WIDTH, MOST_LOBES
 from exudyn_wheelset.contact.tables import MOST_NODES
 
@@ -46,7 +47,9 @@ PATCH_WIDTH = 30
 # Result array: wrench (6), numbers of patches left and right, then the patches of either side.
 COUNT_LEFT, COUNT_RIGHT, PATCHES = 6, 7, 8
 RESULT_SIZE = PATCHES + 2 * MOST_LOBES * PATCH_WIDTH
-HERTZ, HERTZ_LOCAL, VIRTUAL_PENETRATION = 0, 1, 2
+HERTZ = NORMAL_MODELS["hertz"]
+HERTZ_LOCAL = NORMAL_MODELS["hertz-local"]
+VIRTUAL_PENETRATION = NORMAL_MODELS["virtual-penetration"]
 DEPTHS = RESULT_SIZE + MOST_LOBES * LOBE_WIDTH
 FACTORS = DEPTHS + MOST_NODES
 

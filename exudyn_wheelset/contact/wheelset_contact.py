@@ -14,22 +14,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from exudyn_wheelset.contact import layout as kernel
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.descriptions import (
+    CONTACT_NUMBERS,
+    NORMAL_MODELS,
+    Contact,
+    Track,
+    Wheelset,
+    check_contact_names,
+)
 from exudyn_wheelset.contact.forces import wheelset_forces
 from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
-
-NORMAL_MODELS = {
-    "hertz": kernel.HERTZ,
-    "hertz-local": kernel.HERTZ_LOCAL,
-    "virtual-penetration": kernel.VIRTUAL_PENETRATION,
-}
 
 
 @dataclass(frozen=True)
@@ -82,45 +84,59 @@ class ContactForces:
 
 
 def contact_parameters(
+    contact: Contact | None = None,
     *,
-    normal: str = "hertz",
-    creep: str = "polach",
-    friction: float = 0.3,
-    shear_modulus: float = 82.0e9,
-    poisson: float = 0.28,
-    damping: float = 0.0,
+    normal: str = Contact.normal,
+    creep: str = Contact.creep,
+    friction: float = Contact.friction,
+    shear_modulus: float = Contact.shear_modulus,
+    poisson: float = Contact.poisson,
+    damping: float = Contact.damping,
     **law_parameters: float,
 ) -> np.ndarray:
-    """Return the kernels' parameter array.
+    """Return the kernels' parameter array of a contact, or of one given by keywords (`Contact`).
 
-    normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
-    point) or "virtual-penetration"; creep: name of a creep law, law_parameters: its own;
-    friction [-]; shear_modulus [Pa]; poisson [-]; damping [s/m] of the normal contact.
-    Raises WheelsetError for unknown names and impossible values.
+    Raises WheelsetError for unknown names and impossible values, and where a contact and its
+    numbers are both given.
     """
-    if normal not in NORMAL_MODELS:
-        raise WheelsetError(
-            f"normal = {normal!r} is unknown: use one of {', '.join(NORMAL_MODELS)}"
-        )
-    checks = (
-        ("friction", friction, 0.0, 5.0, "0 to 5"),
-        ("shear_modulus", shear_modulus, 1.0e6, 1.0e13, "a modulus in Pa, such as 82e9"),
-        ("poisson", poisson, 0.0, 0.5, "0 to 0.5"),
-        ("damping", damping, 0.0, 1.0e3, "0 to 1000 s/m"),
+    chosen = one_contact(
+        contact,
+        normal=normal,
+        creep=creep,
+        friction=friction,
+        shear_modulus=shear_modulus,
+        poisson=poisson,
+        damping=damping,
+        **law_parameters,
     )
-    for name, value, low, high, wanted in checks:
-        if not np.isfinite(value) or not low <= value <= high:
-            raise WheelsetError(f"{name} = {value!r}: give {wanted}")
     parameters = np.zeros(kernel.PARAMETER_COUNT)
-    parameters[kernel.FRICTION] = friction
-    parameters[kernel.SHEAR_MODULUS] = shear_modulus
-    parameters[kernel.POISSON] = poisson
-    parameters[kernel.DAMPING] = damping
-    parameters[kernel.LAW] = creep_law(creep).number
-    parameters[kernel.NORMAL] = NORMAL_MODELS[normal]
-    values = creep_parameters(creep, **law_parameters)
+    parameters[kernel.FRICTION] = chosen.friction
+    parameters[kernel.SHEAR_MODULUS] = chosen.shear_modulus
+    parameters[kernel.POISSON] = chosen.poisson
+    parameters[kernel.DAMPING] = chosen.damping
+    parameters[kernel.LAW] = creep_law(chosen.creep).number
+    parameters[kernel.NORMAL] = NORMAL_MODELS[chosen.normal]
+    values = creep_parameters(chosen.creep, **dict(chosen.law_parameters))
     parameters[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(values)] = values
     return parameters
+
+
+def one_contact(contact: Contact | None, **given: Any) -> Contact:
+    """The contact, or the one of the keywords `given`; WheelsetError where they contradict."""
+    if contact is None:
+        return Contact(**given)
+    if not isinstance(contact, Contact):
+        raise WheelsetError(
+            f"contact = {contact!r}: give a Contact, such as Contact(friction=0.4), or its numbers "
+            "by keyword"
+        )
+    for name, value in given.items():
+        if name not in CONTACT_NUMBERS or value != getattr(Contact, name):
+            raise WheelsetError(
+                f"{name} = {value!r} is given beside a contact: put it into the contact, "
+                f"Contact({name}={value!r}, ...)"
+            )
+    return contact
 
 
 def contact_forces(
@@ -128,13 +144,14 @@ def contact_forces(
     track: Track,
     pose: Sequence[float],
     velocity: Sequence[float],
-    normal: str = "hertz",
-    creep: str = "polach",
-    friction: float = 0.3,
-    shear_modulus: float = 82.0e9,
-    poisson: float = 0.28,
-    damping: float = 0.0,
+    normal: str = Contact.normal,
+    creep: str = Contact.creep,
+    friction: float = Contact.friction,
+    shear_modulus: float = Contact.shear_modulus,
+    poisson: float = Contact.poisson,
+    damping: float = Contact.damping,
     rail_motion: Sequence[float] | None = None,
+    contact: Contact | None = None,
     **law_parameters: float,
 ) -> ContactForces:
     """Return the forces of `track` on `wheelset` in a pose with a velocity.
@@ -142,14 +159,16 @@ def contact_forces(
     pose (x, y, z, roll, pitch, yaw) [m, rad] in the track frame, z from `radius` above the plane
     of the rail tops, orientation Rz(yaw) Rx(roll) Ry(pitch); velocity (vx, vy, vz, wx, wy, wz)
     [m/s, rad/s] of the centre and angular, in track axes; rail_motion (8): lateral and vertical
-    shift [m] of the left and of the right rail, then their rates [m/s]. The other parameters are
-    those of `contact_parameters`.
+    shift [m] of the left and of the right rail, then their rates [m/s]. contact: a Contact, or its
+    numbers by keyword.
     Raises WheelsetError for numbers that are not finite, of the wrong count, or unknown names.
     """
     _, y, z, roll, _, yaw = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
     motion_of_centre = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
     motion = np.zeros(8) if rail_motion is None else _numbers("rail_motion", rail_motion, 8)
+    check_contact_names(creep, law_parameters, ("rail_motion", "contact"))
     parameters = contact_parameters(
+        contact,
         normal=normal,
         creep=creep,
         friction=friction,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,13 +20,13 @@ from exudyn.utilities import (
     SensorUserFunction,
 )
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.contact import layout as kernel
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check_contact_names
 from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
-from exudyn_wheelset.errors import WheelsetError
 
 SENSOR_VALUES = (
     "normal_force",
@@ -84,12 +85,13 @@ def create_wheelset(
     lateral_offset: float = 0.0,
     yaw: float = 0.0,
     gravity: float = 9.81,
-    normal: str = "hertz",
-    creep: str = "polach",
-    friction: float = 0.3,
-    shear_modulus: float = 82.0e9,
-    poisson: float = 0.28,
-    damping: float = 1.0,
+    contact: Contact | None = None,
+    normal: str = Contact.normal,
+    creep: str = Contact.creep,
+    friction: float = Contact.friction,
+    shear_modulus: float = Contact.shear_modulus,
+    poisson: float = Contact.poisson,
+    damping: float = Contact.damping,
     irregularity: Irregularity | None = None,
     rail_elasticity: RailElasticity | None = None,
     sensors: bool = True,
@@ -104,17 +106,20 @@ def create_wheelset(
     (springs to Exudyn's ground are then springs to that frame), otherwise the body runs at V
     along x. height [m] of the centre above `radius` over the rail tops (default: 0.1 mm into the
     rails' rigid contact, about the static penetration); lateral_offset [m] and yaw [rad]: initial
-    displacement. gravity [m/s^2] downwards. normal, creep, friction, shear_modulus, poisson,
-    damping and law_parameters: see `contact_parameters`. irregularity: see WheelRailContact;
+    displacement. gravity [m/s^2] downwards. contact: a Contact, or its numbers by keyword
+    (normal, creep, friction, shear_modulus, poisson, damping and the law's own parameters).
+    irregularity: see WheelRailContact;
     rail_elasticity: springs and dampers under each rail (coupling/elastic_rails.py).
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
     rails.
     """
-    values = {"speed": speed, "lateral_offset": lateral_offset, "yaw": yaw, "gravity": gravity}
-    for what, value in values.items():
-        if not np.isfinite(value):
-            raise WheelsetError(f"{what} = {value!r}: give a finite number (SI units)")
+    number("speed", speed, "m/s")
+    number("lateral_offset", lateral_offset, "m")
+    number("yaw", yaw, "rad")
+    number("gravity", gravity, "m/s^2")
+    check_contact_names(creep, law_parameters, _OWN_OPTIONS)
     parameters = contact_parameters(
+        contact,
         normal=normal,
         creep=creep,
         friction=friction,
@@ -123,7 +128,7 @@ def create_wheelset(
         damping=damping,
         **law_parameters,
     )
-    contact = WheelRailContact(
+    rails = WheelRailContact(
         wheelset,
         track,
         parameters,
@@ -150,23 +155,23 @@ def create_wheelset(
         returnDict=True,
     )
     marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} centre", bodyNumber=created["bodyNumber"]))
-    contact.attach(mbs, created["nodeNumber"])
+    rails.attach(mbs, created["nodeNumber"])
     force = mbs.AddLoad(
         LoadForceVector(
             name=f"{name} rail force",
             markerNumber=marker,
-            loadVectorUserFunction=contact.load_function(0),
+            loadVectorUserFunction=rails.load_function(0),
         )
     )
     torque = mbs.AddLoad(
         LoadTorqueVector(
             name=f"{name} rail torque",
             markerNumber=marker,
-            loadVectorUserFunction=contact.load_function(1),
+            loadVectorUserFunction=rails.load_function(1),
         )
     )
     if rail_elasticity is not None:
-        _create_rails(mbs, contact, name)
+        _create_rails(mbs, rails, name)
     side_sensors: list[int | None] = [None, None]
     if sensors:
         for hand, side in enumerate(("left", "right")):
@@ -175,7 +180,7 @@ def create_wheelset(
                     name=f"{name} {side} wheel",
                     sensorNumbers=[],
                     factors=[],
-                    sensorUserFunction=_sensor(contact, hand),
+                    sensorUserFunction=_sensor(rails, hand),
                     storeInternal=True,
                     writeToFile=False,
                 )
@@ -188,8 +193,15 @@ def create_wheelset(
         torque,
         side_sensors[0],
         side_sensors[1],
-        contact,
+        rails,
     )
+
+
+_OWN_OPTIONS = tuple(
+    option
+    for option in inspect.signature(create_wheelset).parameters
+    if option not in ("mbs", "wheelset", "track", "law_parameters")
+)
 
 
 def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:

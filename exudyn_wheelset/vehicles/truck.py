@@ -165,7 +165,7 @@ class Truck:
                 gravity=GRAVITY,
                 show=show,
                 name=f"{name} {which} wheelset",
-                **{"damping": 0.0, **self.contact, **options},
+                **{**self.contact, **options},
             )
             for which, ahead in (
                 ("leading", self.half_wheelbase),

@@ -83,7 +83,7 @@ class WheelsetOnFrame:
             speed=speed,
             moving_frame=True,
             gravity=GRAVITY,
-            **{"damping": 0.0, **self.contact, **options},
+            **{**self.contact, **options},
         )
         ground = mbs.CreateGround()
         height = mbs.GetNodeParameter(items.node, "referenceCoordinates")[2]

@@ -1,0 +1,94 @@
+"""Checks of what users give: every refusal names the value, its unit, the range and the mend."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Sequence
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.errors import WheelsetError
+
+
+def number(
+    what: str,
+    value: Any,
+    unit: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    mend: str = "",
+) -> float:
+    """`value` as a float, if it is a finite number from `low` to `high` in `unit`.
+
+    `mend` is added to the message where it lies outside. Raises WheelsetError; a string is
+    refused even where it spells a number, and so are True and False.
+    """
+    shown = "" if unit in ("", "-") else f" {unit}"
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise WheelsetError(
+            f"{what} = {value!r} is no number: give a number{f' in {unit}' if shown else ''}"
+        )
+    result = float(value)
+    if not math.isfinite(result) or not low <= result <= high:
+        raise WheelsetError(
+            f"{what} = {value!r}{shown}: give a number {_range(low, high)}{shown}"
+            + (f"; {mend}" if mend else "")
+        )
+    return result
+
+
+def positive(what: str, value: Any, unit: str, high: float = math.inf, mend: str = "") -> float:
+    """`value` as a float, if it is a number above 0 and up to `high`; raises as `number` does."""
+    result = number(what, value, unit)
+    if result <= 0.0:
+        raise WheelsetError(f"{what} = {value!r} {unit}: give a positive number in {unit}")
+    if result > high:
+        raise WheelsetError(
+            f"{what} = {value!r} {unit} is out of proportion: the largest accepted is "
+            f"{high:g} {unit}; {mend or f'is it given in {unit}?'}"
+        )
+    return result
+
+
+def numbers(
+    what: str,
+    values: Any,
+    count: int,
+    unit: str,
+    low: float = -math.inf,
+    high: float = math.inf,
+    mend: str = "",
+) -> tuple[float, ...]:
+    """`values` as `count` floats, each checked as `number` does; raises WheelsetError."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise WheelsetError(f"{what} = {values!r}: give {count} numbers [{unit}]")
+    given = list(values)
+    if len(given) != count:
+        raise WheelsetError(
+            f"{what} = {given!r} has {len(given)} entries: give {count} numbers [{unit}]"
+        )
+    return tuple(
+        number(f"{what}[{place}]", value, unit, low, high, mend)
+        for place, value in enumerate(given)
+    )
+
+
+def unknown(kind: str, name: Any, known: Sequence[str]) -> WheelsetError:
+    """The error for a name that is not among `known`; it offers the nearest one."""
+    listed = ", ".join(known) or "none"
+    near = difflib.get_close_matches(str(name).lower(), known, n=1, cutoff=0.5)
+    offer = f"; did you mean {near[0]!r}?" if near else ""
+    return WheelsetError(f"unknown {kind} {name!r}; known are {listed}{offer}")
+
+
+def _range(low: float, high: float) -> str:
+    if math.isinf(low) and math.isinf(high):
+        return "that is finite"
+    if math.isinf(high):
+        return f"of at least {low:g}"
+    return f"from {low:g} to {high:g}" if not math.isinf(low) else f"of at most {high:g}"
