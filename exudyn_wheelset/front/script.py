@@ -1,4 +1,4 @@
-"""What every model script shares: --json, --out, --settings, plain errors."""
+"""What every model script shares: --json, --out, --settings, profile options, plain errors."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ import argparse
 import json
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.output import _plain
+from exudyn_wheelset.profiles import Profile, load_profile
 
 DEFAULT_OUT = Path("runs") / "out"
 
@@ -29,6 +32,93 @@ def script_parser(description: str, *, settings: bool = True) -> argparse.Argume
             "--settings", type=Path, default=None, help="Exudyn solver settings file (JSON)"
         )
     return parser
+
+
+@dataclass(frozen=True)
+class ScriptProfiles:
+    """The profiles and the track that a script's options name.
+
+    wheel, rail: loaded profiles; gauge, gauge_depth [m]; inclination [-]. None where neither the
+    command line nor the script's defaults say anything.
+    """
+
+    wheel: Profile | None
+    rail: Profile | None
+    gauge: float | None
+    gauge_depth: float | None
+    inclination: float | None
+
+    @property
+    def track(self) -> Track:
+        """The track of these options; what is None has the default of `Track` (rail: UIC60)."""
+        given = {
+            name: value
+            for name in ("gauge", "gauge_depth", "inclination")
+            if (value := getattr(self, name)) is not None
+        }
+        return Track(self.rail if self.rail is not None else "UIC60", **given)
+
+
+def add_profile_options(
+    parser: argparse.ArgumentParser,
+    *,
+    wheel: str | None = "S1002",
+    rail: str | None = "UIC60",
+    gauge: float | None = 1.435,
+    gauge_depth: float | None = 0.014,
+    inclination: float | None = 1.0 / 40.0,
+) -> None:
+    """Add --wheel, --rail, --gauge, --gauge-depth, --inclination and --smoothing to a script.
+
+    The arguments are the options' defaults; None where the script itself knows what to take.
+    """
+    group = parser.add_argument_group("profiles and track")
+    group.add_argument("--wheel", default=wheel, help="wheel profile, name or file")
+    group.add_argument("--rail", default=rail, help="rail profile, name or file")
+    group.add_argument("--gauge", type=float, default=gauge, help="[m]")
+    group.add_argument(
+        "--gauge-depth", type=float, default=gauge_depth, help="below the rail's top [m]"
+    )
+    group.add_argument(
+        "--inclination", type=float, default=inclination, help="of the rails [-], 0.025 is 1:40"
+    )
+    group.add_argument(
+        "--smoothing",
+        type=_smoothing,
+        default=0.0,
+        help="of profiles from files: 'auto', or the rms distance of points to curve [m]",
+    )
+
+
+def profiles_from(arguments: argparse.Namespace) -> ScriptProfiles:
+    """Load the profiles of the options that `add_profile_options` has added.
+
+    --smoothing holds for profiles from files; those that come with the package are exact.
+    Raises ProfileError for a profile that cannot be read.
+    """
+
+    def load(source: str | None, kind: str) -> Profile | None:
+        if source is None:
+            return None
+        smoothing = arguments.smoothing if Path(source).is_file() else 0.0
+        return load_profile(source, kind=kind, smoothing=smoothing)
+
+    return ScriptProfiles(
+        load(arguments.wheel, "wheel"),
+        load(arguments.rail, "rail"),
+        arguments.gauge,
+        arguments.gauge_depth,
+        arguments.inclination,
+    )
+
+
+def _smoothing(text: str) -> float | str:
+    if text == "auto":
+        return text
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}; give 'auto' or metres, such as 1e-5") from None
 
 
 def run_script(

@@ -317,5 +317,5 @@ def check_options(kind: str | None, smoothing: float) -> None:
     """Raise ProfileError for an impossible kind or smoothing."""
     if kind is not None and kind not in KINDS:
         raise ProfileError(f"kind={kind!r}; use 'wheel' or 'rail'")
-    if not 0.0 <= smoothing <= 1e-3:
+    if isinstance(smoothing, str) or not 0.0 <= smoothing <= 1e-3:
         raise ProfileError(f"smoothing = {smoothing} m; use 0 to 1e-3 m (10 micrometres is 1e-5)")
