@@ -34,15 +34,17 @@ PATCH = {
     "poisson": 0.28,
 }
 # law, parameters, label
-VARIANTS: list[tuple[str, dict[str, float], str]] = [
+VARIANTS: list[tuple[str, dict[str, Any], str]] = [
     ("linear", {}, "linear"),
     ("vermeulen-johnson", {}, "vermeulen-johnson"),
     ("shen-hedrick-elkins", {}, "shen-hedrick-elkins"),
     ("polach", {}, "polach"),
     ("polach", {"spin_moment": 1}, "polach, spin moment"),
+    ("polach-kalker", {}, "polach-kalker"),
     ("polach-2005", {"slip_reduction": 1.0}, "polach-2005 (k_A = k_S = 1)"),
     ("fastsim", {}, "fastsim 10 x 10"),
-    ("fastsim", {"flexibilities": 3}, "fastsim 10 x 10, three L"),
+    ("fastsim", {"flexibilities": "one"}, "fastsim 10 x 10, one L"),
+    ("fastsim", {"flexibilities": "three"}, "fastsim 10 x 10, three L"),
     ("fastsim", {"cells_along": 50, "cells_across": 50}, "fastsim 50 x 50"),
 ]
 # microseconds a wheel
@@ -76,7 +78,7 @@ def _repeat(number: int, states: NDArray, parameters: NDArray, rounds: int) -> f
     return total
 
 
-def cost(law: str, parameters: dict[str, float], states: NDArray) -> float:
+def cost(law: str, parameters: dict[str, Any], states: NDArray) -> float:
     """Give the time of one call of a law [us], mean over the states, best of five rounds."""
     number, array = CREEP_LAWS[law].number, creep_parameters(law, **parameters)
     _repeat(number, states, array, 1)

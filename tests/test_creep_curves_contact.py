@@ -22,7 +22,7 @@ def test_linear_law_is_exact(of_set):
 
 @pytest.mark.parametrize("of_set", SETS)
 def test_fastsim_on_fifty_cells(of_set):
-    forces = creep_force("fastsim", **creepages(of_set), **PATCH, cells_along=50, cells_across=50)
+    forces = creep_force("fastsim", **creepages(of_set), **PATCH, grid=50, flexibilities="one")
     error, size = distance(forces, "_fastsim", of_set)
     # the reference's own grid costs it 0.6 % of the force where the force is nearly zero
     assert np.all(error <= 0.01 * size)

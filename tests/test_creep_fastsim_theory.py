@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from creep_reference import PATCH
+from creep_reference import PATCH, spin_set
 from scipy.integrate import quad
 
-from exudyn_wheelset.creep import creep_force, kalker_coefficients
+from exudyn_wheelset.creep import creep_force, creep_parameters, kalker_coefficients
+from exudyn_wheelset.errors import WheelsetError
 
 ELLIPSES = [(5.5e-3, 5.5e-3), (3e-3, 9e-3), (8e-3, 2e-3)]
 
@@ -70,7 +71,7 @@ def test_closed_form_of_pure_creep(a, b, creep):
 )
 def test_scheme_of_1982(a, b, creep_x, creep_y, spin):
     state = PATCH | {"a": a, "b": b}
-    cells = {"cells_along": 100, "cells_across": 100}
+    cells = {"cells_along": 100, "cells_across": 100, "flexibilities": "one"}
     fine = np.array(creep_force("fastsim", creep_x, creep_y, spin, **state, **cells))
     # first order: 400 and 800 cells, extrapolated, leave less than 0.2 % of the force
     coarse = cut_back_to_the_bound(creep_x, creep_y, spin, a, b, 400)
@@ -92,9 +93,10 @@ def test_scheme_of_1982(a, b, creep_x, creep_y, spin):
         (0.0, -3e-3, 1.0),
     ],
 )
-def test_order_of_convergence(creep_x, creep_y, spin):
+@pytest.mark.parametrize("flexibilities", ["one", "blended", "three"])
+def test_order_of_convergence(flexibilities, creep_x, creep_y, spin):
     def forces(cells):
-        grid = {"cells_along": cells, "cells_across": cells}
+        grid = {"cells_along": cells, "cells_across": cells, "flexibilities": flexibilities}
         return np.array(creep_force("fastsim", creep_x, creep_y, spin, **PATCH, **grid))[:2]
 
     limit = forces(800)
@@ -112,3 +114,70 @@ def test_grid_sets_cells_along_and_across():
     assert creep_force("fastsim", *state, grid=24) == both
     finer_along = creep_force("fastsim", *state, cells_along=30, cells_across=24)
     assert creep_force("fastsim", *state, grid=24, cells_along=30) == finer_along
+
+
+@pytest.mark.parametrize("flexibilities", ["blended", "three"])
+@pytest.mark.parametrize(("a", "b"), ELLIPSES)
+@pytest.mark.parametrize(
+    "direction", [(1, 0, 0), (1, 1, 0), (1, -2, 80), (0, 1, -100), (-1, 1, 50)]
+)
+def test_linear_limit_in_every_direction(flexibilities, a, b, direction):
+    state = PATCH | {"a": a, "b": b}
+    creepages = 1e-7 * np.array(direction)
+    # below 20 cells the marched tractions of the linear range are short by the cells' second order
+    force = creep_force("fastsim", *creepages, **state, grid=80, flexibilities=flexibilities)
+    linear = creep_force("linear", *creepages, **state)
+    np.testing.assert_allclose(force[:2], linear[:2], atol=2e-3 * np.hypot(*linear[:2]))
+
+
+def test_flexibilities_by_word_and_by_number():
+    state = (4e-4, 5e-4, 0.2, 3e-3, 9e-3, 6e4, 0.3, 82e9, 0.28)
+    for word, number in (("one", 1), ("blended", 2), ("three", 3)):
+        by_word = creep_force("fastsim", *state, flexibilities=word)
+        assert by_word == creep_force("fastsim", *state, flexibilities=number)
+        values = creep_parameters("fastsim", flexibilities=word)
+        assert values.tolist() == [10.0, 10.0, number]
+    assert creep_force("fastsim", *state) == creep_force("fastsim", *state, flexibilities="blended")
+    with pytest.raises(WheelsetError, match=r"'two'.*one of 'one', 'blended', 'three'"):
+        creep_force("fastsim", *state, flexibilities="two")
+    with pytest.raises(WheelsetError, match=r"'many'.*give a number"):
+        creep_force("fastsim", *state, cells_along="many")
+
+
+def test_blend_lies_between_three_and_one():
+    """Three at no creepage, one from three times saturation on; by the equations of the header."""
+    a, b = 3e-3, 9e-3
+    state = PATCH | {"a": a, "b": b}
+    c11, c22, _, _ = kalker_coefficients(a, b, 0.28)
+    saturation = 24e3 / (a * b * 82e9) * np.hypot(1 / c11, 1 / c22)
+
+    def force(flexibilities, size, spin=0.3):
+        creepages = size * saturation * np.array([0.8, 0.6])
+        return np.array(
+            creep_force("fastsim", *creepages, spin, **state, flexibilities=flexibilities)
+        )
+
+    np.testing.assert_array_equal(force("blended", 0.0), force("three", 0.0))
+    for size in (3.0 + 1e-9, 4.0):
+        np.testing.assert_array_equal(force("blended", size), force("one", size))
+    # a weight of 1e-9 towards one
+    np.testing.assert_allclose(force("blended", 3e-9), force("three", 3e-9), rtol=1e-8)
+    one, three = force("one", 1.0)[:2], force("three", 1.0)[:2]
+    assert np.hypot(*(force("blended", 1.0)[:2] - three)) < np.hypot(*(one - three))
+
+
+def test_combined_creep_against_full_contact():
+    """Without spin, a/b 0.2 to 5: what the blend is for (one flexibility: 9.6 % of mu N)."""
+    states, forces = spin_set()
+    worst = {}
+    without = states["spin"] == 0.0
+    limit = states["friction"] * states["normal_force"]
+    for flexibilities in ("one", "blended", "three"):
+        fx, fy, _ = creep_force("fastsim", **states, grid=50, flexibilities=flexibilities)
+        error = np.hypot(fx - forces[0], fy - forces[1]) / limit
+        worst[flexibilities] = error[without].max()
+        worst[f"{flexibilities}, rms"] = np.sqrt(np.mean(error**2))
+    # the simplified theory's own distance, 4.6 % of mu N at a/b 0.2
+    assert worst["blended"] < 0.047
+    assert worst["blended"] < min(worst["one"], worst["three"])
+    assert worst["blended, rms"] < min(worst["one, rms"], worst["three, rms"])

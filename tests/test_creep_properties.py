@@ -58,7 +58,7 @@ def test_dissipation_without_spin(law, sx, sy, a, b, force, mu):
     assert -(fx * sx + fy * sy) >= 0.0
 
 
-@pytest.mark.parametrize("flexibilities", [1, 3])
+@pytest.mark.parametrize("flexibilities", ["one", "blended", "three"])
 @settings(deadline=None, max_examples=300)
 @given(creep, creep, spin, axis, axis, load, friction)
 def test_dissipation_of_fastsim_with_spin(flexibilities, sx, sy, psi, a, b, force, mu):
@@ -69,7 +69,7 @@ def test_dissipation_of_fastsim_with_spin(flexibilities, sx, sy, psi, a, b, forc
     scale = mu * force * (math.hypot(sx, sy) + abs(psi) * max(a, b))
     # one bed of springs gives back what it stored and no more; three stiffnesses for the parts
     # of one slip are no such bed, and the theory itself then gains up to 0.3 % on slender patches
-    assert power >= -(1e-15 if flexibilities == 1 else 5e-3) * scale
+    assert power >= -(1e-15 if flexibilities == "one" else 5e-3) * scale
 
 
 @pytest.mark.parametrize("law", list(CREEP_LAWS))

@@ -12,7 +12,12 @@ With `flexibilities` = 1, plain FASTSIM, one L serves all, by the weighting of t
     L = (xi_x^2 + xi_y^2 + zeta^2)/(xi_x^2/L_1 + xi_y^2/L_2 + zeta^2/L_3),  zeta = 3 pi a phi/32.
 The older weighting by magnitudes, (|xi_x| L_1 + |xi_y| L_2 + c |phi| L_3)/hypot, makes the bed up
 to 1.4 times too soft when creepages combine; it is not used. With `flexibilities` = 3 each of
-xi_x, xi_y, phi has its own L.
+xi_x, xi_y, phi has its own L. "blended" (2), the default, goes from three to one as creepage
+grows, as CONTACT's modified FASTSIM does (E. A. H. Vollebregt, CONTACT user guide):
+    w = min(1, f/3),  f = hypot(xi_x, xi_y)/hypot(u_1, u_2),  u_i = mu N/(a b G C_ii),
+    L_i <- (1 - w) L_i + w L.
+Three are exact in the linear range, one is nearer to the full theory where most of the patch
+slips: a/b = 0.3, slanted creepage without spin, at most 4.1 % of mu N from CONTACT, one 9.8 %.
 
 Grid: every strip has the same number of cells, so cells shrink with the strip as in the original.
 Strips stand at y = -b cos(theta), theta at the middle of equal steps, and the bound is averaged
@@ -26,7 +31,9 @@ input gives mirrored output bit by bit.
 
 Smoothness: continuous. One flexibility: L is smooth but at the origin; with spin present the
 slope of F over xi at xi = 0 is that of L_3, so Kalker's linear limit holds for one creepage at a
-time. Three: the linear limit is exact. Slopes jump slightly as cells change from stick to slip.
+time. Three and blended: the linear limit is exact, and blended has a first derivative at zero
+creepage (w grows with |xi|, so the second jumps there; the first jumps at f = 3). Slopes jump
+slightly as cells change from stick to slip.
 Frames and signs as in exudyn_wheelset.creep.kalker.
 """
 
@@ -41,6 +48,10 @@ from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 
+ONE, BLENDED, THREE = 1.0, 2.0, 3.0
+# creepage over saturation by the linear theory at which the blend has become one flexibility
+_ONE_FROM = 3.0
+
 LAW = CreepLaw(
     "fastsim",
     5,
@@ -49,7 +60,13 @@ LAW = CreepLaw(
         CreepParameter("cells_along", 10.0, 2.0, 1000.0, "cells of a strip along x", whole=True),
         CreepParameter("cells_across", 10.0, 3.0, 1000.0, "strips across y", whole=True),
         CreepParameter(
-            "flexibilities", 1.0, 1.0, 3.0, "1: one for all, 3: one each for xi_x, xi_y, phi"
+            "flexibilities",
+            BLENDED,
+            ONE,
+            THREE,
+            "1: one for all, 3: one each for xi_x, xi_y, phi, 2: from three to one",
+            whole=True,
+            words=(("one", ONE), ("blended", BLENDED), ("three", THREE)),
         ),
     ),
     {"grid": ("cells_along", "cells_across")},
@@ -141,7 +158,7 @@ def fastsim(
     soft_x = 8.0 * a / (3.0 * shear_modulus * c11)
     soft_y = 8.0 * a / (3.0 * shear_modulus * c22)
     soft_spin = math.pi * a * a / (4.0 * shear_modulus * size * c23)
-    if parameters[2] < 2.0:
+    if parameters[2] < THREE:
         share_x = creep_x / largest
         share_y = creep_y / largest
         share_spin = 3.0 * math.pi / 32.0 * a * spin / largest
@@ -149,7 +166,18 @@ def fastsim(
         soft = (share_x + share_y + share_spin) / (
             share_x / soft_x + share_y / soft_y + share_spin / soft_spin
         )
-        soft_x = soft_y = soft_spin = soft
+        blend = 1.0
+        if parameters[2] == BLENDED:
+            saturation = limit / (a * b * shear_modulus)
+            fullness = math.sqrt(creep_x * creep_x + creep_y * creep_y)
+            fullness /= saturation * math.sqrt(1.0 / (c11 * c11) + 1.0 / (c22 * c22))
+            blend = min(1.0, fullness / _ONE_FROM)
+        if blend < 1.0:
+            soft_x += blend * (soft - soft_x)
+            soft_y += blend * (soft - soft_y)
+            soft_spin += blend * (soft - soft_spin)
+        else:
+            soft_x = soft_y = soft_spin = soft
 
     # tractions in units of the bound at the middle of their strip; x and y in units of a and b
     cells = int(parameters[0])

@@ -6,12 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from exudyn_wheelset.errors import WheelsetError
+
 
 @dataclass(frozen=True)
 class CreepParameter:
     """One number that a creep law takes besides the state of the patch.
 
-    `low` and `high` are the range allowed, both ends included; `whole` asks for a whole number.
+    `low` and `high` are the range allowed, both ends included; `whole` asks for a whole number;
+    `words` are names of values, accepted in their place.
     """
 
     name: str
@@ -20,6 +23,7 @@ class CreepParameter:
     high: float
     meaning: str
     whole: bool = False
+    words: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -37,13 +41,29 @@ class CreepLaw:
     shorthands: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def expand(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
-        """Parameters by their own names, shorthands replaced; a name given itself goes before."""
+        """Parameters by their own names, shorthands and words replaced.
+
+        A name given itself goes before a shorthand. Raises WheelsetError for an unknown word.
+        """
         expanded: dict[str, Any] = {}
         for name, value in parameters.items():
             for own in self.shorthands.get(name, ()):
                 expanded.setdefault(own, value)
         own_names = {k: v for k, v in parameters.items() if k not in self.shorthands}
-        return {**expanded, **own_names}
+        return {name: self._number(name, v) for name, v in {**expanded, **own_names}.items()}
+
+    def _number(self, name: str, value: Any) -> Any:
+        """Value of a parameter given by a word; any other value as it is."""
+        if not isinstance(value, str):
+            return value
+        words = {w: v for p in self.parameters if p.name == name for w, v in p.words}
+        if value in words:
+            return words[value]
+        known = ", ".join(map(repr, words))
+        raise WheelsetError(
+            f"{name} = {value!r} of creep law {self.name!r}: give "
+            + (f"one of {known}" if words else "a number")
+        )
 
     def index(self, parameter: str) -> int:
         """Give the place of a parameter in the law's array; KeyError if there is none."""

@@ -39,6 +39,31 @@ _EPS_LIMIT = 1e50
 
 
 @compiled
+def spin_force(
+    lateral: float,
+    spin: float,
+    a: float,
+    b: float,
+    limit: float,
+    shear_modulus: float,
+    c23: float,
+    reduction: float,
+) -> float:
+    """Give -F_ys psi [N] of the equations in the header, with s_yc = lateral and limit = Q f > 0.
+
+    reduction multiplies eps_s (1 in 1999).
+    """
+    widening = 1.0 + 6.3 * (1.0 - math.exp(-a / b))
+    eps_s = 8.0 / 3.0 * shear_modulus * b * math.sqrt(a * b) * c23 * abs(lateral)
+    eps_s = min(reduction * eps_s / (limit * widening), _EPS_LIMIT)
+    # q = 1 - d keeps the digits that d -> 1 loses
+    q = 2.0 / (1.0 + eps_s * eps_s)
+    root = math.sqrt(q * (2.0 - q))
+    k_m = eps_s * q * q * (0.5 - q / 3.0) - root * root * root / 3.0
+    return 9.0 / 16.0 * a * limit * k_m * widening * spin
+
+
+@compiled
 def polach_force(
     creep_x: float,
     creep_y: float,
@@ -74,14 +99,9 @@ def polach_force(
     force_x = -force * creep_x
     force_y = -force * creep_y
     if spin != 0.0:
-        widening = 1.0 + 6.3 * (1.0 - math.exp(-a / b))
-        eps_s = 8.0 / 3.0 * shear_modulus * b * math.sqrt(a * b) * c23 * abs(lateral)
-        eps_s = min(0.5 * (adhesion + slip) * eps_s / (limit * widening), _EPS_LIMIT)
-        # q = 1 - d keeps the digits that d -> 1 loses
-        q = 2.0 / (1.0 + eps_s * eps_s)
-        root = math.sqrt(q * (2.0 - q))
-        k_m = eps_s * q * q * (0.5 - q / 3.0) - root * root * root / 3.0
-        force_y += 9.0 / 16.0 * a * limit * k_m * widening * spin / creep_c
+        reduction = 0.5 * (adhesion + slip)
+        push = spin_force(lateral, spin, a, b, limit, shear_modulus, c23, reduction)
+        force_y += push / creep_c
     total = math.sqrt(force_x * force_x + force_y * force_y)
     if total > limit:
         force_x *= limit / total

@@ -24,6 +24,8 @@ from exudyn_wheelset.creep.polach import LAW as POLACH
 from exudyn_wheelset.creep.polach import polach
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
 from exudyn_wheelset.creep.polach_2005 import polach_2005
+from exudyn_wheelset.creep.polach_kalker import LAW as POLACH_KALKER
+from exudyn_wheelset.creep.polach_kalker import polach_kalker
 from exudyn_wheelset.creep.shen_hedrick_elkins import LAW as SHEN_HEDRICK_ELKINS
 from exudyn_wheelset.creep.shen_hedrick_elkins import shen_hedrick_elkins
 from exudyn_wheelset.creep.vermeulen_johnson import LAW as VERMEULEN_JOHNSON
@@ -32,7 +34,15 @@ from exudyn_wheelset.errors import WheelsetError
 
 CREEP_LAWS: dict[str, CreepLaw] = {
     law.name: law
-    for law in (LINEAR, VERMEULEN_JOHNSON, SHEN_HEDRICK_ELKINS, POLACH, POLACH_2005, FASTSIM)
+    for law in (
+        LINEAR,
+        VERMEULEN_JOHNSON,
+        SHEN_HEDRICK_ELKINS,
+        POLACH,
+        POLACH_2005,
+        FASTSIM,
+        POLACH_KALKER,
+    )
 }
 
 _LINEAR = LINEAR.number
@@ -40,6 +50,7 @@ _VERMEULEN_JOHNSON = VERMEULEN_JOHNSON.number
 _SHEN_HEDRICK_ELKINS = SHEN_HEDRICK_ELKINS.number
 _POLACH = POLACH.number
 _POLACH_2005 = POLACH_2005.number
+_POLACH_KALKER = POLACH_KALKER.number
 
 
 @compiled
@@ -117,6 +128,19 @@ def creep_kernel(
         )
     if law_number == _POLACH_2005:
         return polach_2005(
+            creep_x,
+            creep_y,
+            spin,
+            a,
+            b,
+            normal_force,
+            friction,
+            shear_modulus,
+            poisson,
+            parameters,
+        )
+    if law_number == _POLACH_KALKER:
+        return polach_kalker(
             creep_x,
             creep_y,
             spin,
