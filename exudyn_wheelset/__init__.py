@@ -31,7 +31,7 @@ _PLACES = {
     "WheelRailContact": "coupling.wheel_rail",
     "Wheelset": "contact.descriptions",
     "WheelsetError": "errors",
-    "WheelsetItems": "coupling.create",
+    "WheelsetItems": "coupling.registration",
     "WheelsetOnFrame": "vehicles.wheelset_on_frame",
     "contact_forces": "contact.wheelset_contact",
     "contact_geometry": "geometry.rigid",
@@ -52,6 +52,7 @@ _PLACES = {
     "quasi_static_descent": "stability.hunting.descent",
     "root_locus": "stability.linear.critical_speed",
     "save_profile": "profiles",
+    "wheelsets_of": "coupling.registration",
 }
 
 __all__ = sorted([*_PLACES, "__version__"])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import exudyn as exu
@@ -26,6 +25,13 @@ from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check
 from exudyn_wheelset.contact.search import MOST_LOBES
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
+from exudyn_wheelset.coupling.registration import (
+    FirstOrderState,
+    WheelsetItems,
+    name_states,
+    register_wheelset,
+    unused_name,
+)
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
 
 SENSOR_VALUES = (
@@ -52,25 +58,6 @@ _SENSOR_ROWS = (
     kernel.PATCH_RADIUS,
     kernel.PATCH_PENETRATION,
 )
-
-
-@dataclass(frozen=True)
-class WheelsetItems:
-    """Item numbers of a wheelset in an Exudyn system, and its contact.
-
-    node, body: the rigid body; marker: on its centre; force_load, torque_load: contact loads;
-    left_sensor, right_sensor: user sensors with SENSOR_VALUES of either wheel (None if not asked
-    for); contact: the WheelRailContact behind the loads.
-    """
-
-    node: int
-    body: int
-    marker: int
-    force_load: int
-    torque_load: int
-    left_sensor: int | None
-    right_sensor: int | None
-    contact: WheelRailContact
 
 
 def create_wheelset(
@@ -108,8 +95,9 @@ def create_wheelset(
     rails' rigid contact, about the static penetration); lateral_offset [m] and yaw [rad]: initial
     displacement. gravity [m/s^2] downwards. contact: a Contact, or its numbers by keyword
     (normal, creep, friction, shear_modulus, poisson, damping and the law's own parameters).
-    irregularity: see WheelRailContact;
-    rail_elasticity: springs and dampers under each rail (coupling/elastic_rails.py).
+    irregularity: see WheelRailContact; rail_elasticity: springs and dampers under each rail
+    (coupling/elastic_rails.py). name: a number is added to it if the model has such a wheelset
+    already.
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
     rails.
     """
@@ -118,6 +106,7 @@ def create_wheelset(
     number("yaw", yaw, "rad")
     number("gravity", gravity, "m/s^2")
     check_contact_names(creep, law_parameters, _OWN_OPTIONS)
+    name = unused_name(mbs, name)
     parameters = contact_parameters(
         contact,
         normal=normal,
@@ -156,11 +145,12 @@ def create_wheelset(
     )
     marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} centre", bodyNumber=created["bodyNumber"]))
     rails.attach(mbs, created["nodeNumber"])
+    force_function = rails.load_function(0)
     force = mbs.AddLoad(
         LoadForceVector(
             name=f"{name} rail force",
             markerNumber=marker,
-            loadVectorUserFunction=rails.load_function(0),
+            loadVectorUserFunction=force_function,
         )
     )
     torque = mbs.AddLoad(
@@ -175,26 +165,32 @@ def create_wheelset(
     side_sensors: list[int | None] = [None, None]
     if sensors:
         for hand, side in enumerate(("left", "right")):
-            side_sensors[hand] = mbs.AddSensor(
-                SensorUserFunction(
-                    name=f"{name} {side} wheel",
-                    sensorNumbers=[],
-                    factors=[],
-                    sensorUserFunction=_sensor(rails, hand),
-                    storeInternal=True,
-                    writeToFile=False,
+            side_sensors[hand] = int(
+                mbs.AddSensor(
+                    SensorUserFunction(
+                        name=f"{name} {side} wheel",
+                        sensorNumbers=[],
+                        factors=[],
+                        sensorUserFunction=_sensor(rails, hand),
+                        storeInternal=True,
+                        writeToFile=False,
+                    )
                 )
             )
-    return WheelsetItems(
-        created["nodeNumber"],
-        created["bodyNumber"],
-        marker,
-        force,
-        torque,
+    items = WheelsetItems(
+        int(created["nodeNumber"]),
+        int(created["bodyNumber"]),
+        int(marker),
+        int(force),
+        int(torque),
         side_sensors[0],
         side_sensors[1],
         rails,
+        name,
+        moving_frame,
     )
+    register_wheelset(force_function, items)
+    return items
 
 
 _OWN_OPTIONS = tuple(
@@ -218,6 +214,15 @@ def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:
     def rates(mbs: Any, t: float, item: int, shifts: Any) -> list[float]:
         return contact.rail_rates(mbs, t)
 
+    # A rail gives way by a tenth of a millimetre under a wheel.
+    name_states(
+        rates,
+        [
+            FirstOrderState(f"{side} {axis}", "m", 1.0e-4)
+            for side in ("left", "right")
+            for axis in "yz"
+        ],
+    )
     contact.attach_rails(
         mbs.AddObject(
             ObjectGenericODE1(name=f"{name} rails", nodeNumbers=[rails], rhsUserFunction=rates)

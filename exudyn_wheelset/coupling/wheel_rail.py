@@ -111,7 +111,7 @@ def body_wrench(q, v, first, table, state, part):
     return result[base], result[base + 1], result[base + 2]
 
 
-@dataclass
+@dataclass(eq=False)
 class WheelRailContact:
     """Contact of one wheelset in an Exudyn model: its state between evaluations.
 

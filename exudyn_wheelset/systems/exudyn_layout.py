@@ -13,10 +13,15 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.coupling.registration import named_states
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems.reduction import CYCLIC, ROTATION
 
 Array = np.ndarray
+
+# Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
+DISPLACEMENT_SCALE = 1.0e-3
+VELOCITY_SCALE = 1.0e-2
 
 ROTATION_VECTOR_NODE = "RigidBodyRotVecLG"
 _AXES = ("x", "y", "z")
@@ -33,7 +38,7 @@ class Layout:
     rotations          (k, 3) first coordinate, state of yaw, 1 if it spins, by rotation vector
     reference          (k, 3) reference rotation vectors [rad]
     steady_velocities  (second-order coordinate, velocity per forward speed) in steady running
-    names              of all states
+    names, scales      of all states
     """
 
     positions: int
@@ -42,6 +47,15 @@ class Layout:
     reference: Array
     steady_velocities: tuple[tuple[int, float], ...]
     names: tuple[str, ...]
+    scales: tuple[float, ...]
+
+    def wheelset_states(self, indices: Sequence[int]) -> tuple[int, int]:
+        """States of lateral displacement and yaw of a spinning body with these coordinates.
+
+        The lateral displacement is CYCLIC where it was declared so.
+        """
+        row = int(np.flatnonzero(self.rotations[:, 0] == indices[3])[0])
+        return int(self.position_of[indices[1]]), int(self.rotations[row, 1])
 
 
 def lay_out(
@@ -54,8 +68,9 @@ def lay_out(
     """Layout of an assembled Exudyn system with the given nodes.
 
     `spinning` maps nodes to rolling radii [m] (0: unknown), `cyclic` second-order coordinates to
-    their velocity per forward speed. Raises AnalysisError, which begins with `name`, for entries
-    that the model does not have or that cannot be cyclic.
+    their velocity per forward speed. First-order states are called and scaled as their object
+    says (`name_states`), else "state k [1]". Raises AnalysisError, which begins with `name`, for
+    entries that the model does not have or that cannot be cyclic.
     """
     data = mbs.systemData
     indices_of = {node: [int(index) for index in data.GetNodeLTGODE2(node)] for node in nodes}
@@ -67,14 +82,16 @@ def lay_out(
     position_of = np.full(size, CYCLIC, dtype=np.int64)
     position_names: list[str] = []
     velocity_names = [""] * size
-    first_order_names: list[str] = []
+    first_order: dict[int, tuple[str, float]] = {}
+    labels = _labels(mbs, nodes)
+    named = named_states(mbs)
     rotations: list[tuple[int, int, int]] = []
     reference: list[Array] = []
     steady = list(cyclic.items())
     for node, indices in indices_of.items():
         description = mbs.GetNode(node)
         kind = description["nodeType"]
-        label = description["name"].removeprefix("Node:")
+        label = labels[node]
         prefix = f"{label}: " if moving > 1 else ""
         rigid, spins = kind == ROTATION_VECTOR_NODE, node in spinning
         if spins and not rigid:
@@ -101,15 +118,42 @@ def lay_out(
             position_names += [prefix + angle for angle in _POSES[3 : 5 if spins else 6]]
             if spins and spinning[node]:
                 steady.append((indices[4], 1.0 / spinning[node]))
-        first_order_names += [f"{label}: state {k} [1]" for k in data.GetNodeLTGODE1(node)]
+        for local, index in enumerate(data.GetNodeLTGODE1(node)):
+            text, scale = f"state {local} [1]", VELOCITY_SCALE
+            if (node, local) in named:
+                own = named[node, local]
+                text, scale = f"{own.name} [{own.unit}]", own.scale
+            first_order[int(index)] = (f"{label}: {text}", scale)
     return Layout(
         positions=len(position_names),
         position_of=position_of,
         rotations=np.array(rotations, dtype=np.int64).reshape(-1, 3),
         reference=np.array(reference, dtype=float).reshape(-1, 3),
         steady_velocities=tuple(steady),
-        names=(*position_names, *velocity_names, *first_order_names),
+        names=(
+            *position_names,
+            *velocity_names,
+            *(first_order[index][0] for index in sorted(first_order)),
+        ),
+        scales=(
+            *(DISPLACEMENT_SCALE for _ in position_names),
+            *(VELOCITY_SCALE for _ in velocity_names),
+            *(first_order[index][1] for index in sorted(first_order)),
+        ),
     )
+
+
+def _labels(mbs: Any, nodes: Sequence[int]) -> dict[int, str]:
+    """The nodes' names, numbered where several are called the same."""
+    labels: dict[int, str] = {}
+    for node in nodes:
+        name = label = mbs.GetNode(node)["name"].removeprefix("Node:")
+        number = 1
+        while label in labels.values():
+            number += 1
+            label = f"{name} {number}"
+        labels[node] = label
+    return labels
 
 
 def _names(kind: str, local: int) -> tuple[str, str]:

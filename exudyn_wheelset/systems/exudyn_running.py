@@ -5,6 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 import exudyn as exu
+import numpy as np
+from exudyn.utilities import SensorNode
+
+from exudyn_wheelset.errors import AnalysisError
+
+Array = np.ndarray
+
+# RK44 at this step [s] is within 1 % of the converged growth rate of a wheelset on stiff contact,
+# and explicit steps need no Jacobian of the loads.
+DEFAULT_SOLVER = "RK44"
+DEFAULT_STEP = 5.0e-4
 
 
 class QuietExudyn:
@@ -34,3 +45,140 @@ def failure_words(error: Exception) -> str:
     """The line of an exception that names the cause, without Exudyn's trace."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     return " ".join(lines[:2]) if lines else type(error).__name__
+
+
+class Runner:
+    """Runs an Exudyn system from given coordinates and reads every step back.
+
+    solver_type, step [s]: those of the settings where they are given, else RK44 and 5e-4 s.
+    nodes: all but Exudyn's ground. Sensors are added to `mbs`, which is assembled by the caller.
+    Raises AnalysisError, which begins with `name`, for nodes of data coordinates and for a solver
+    or a step that does not exist.
+    """
+
+    def __init__(
+        self,
+        mbs: Any,
+        name: str,
+        settings: exu.SimulationSettings | None,
+        solver_type: exu.DynamicSolverType | str | None,
+        step: float | None,
+    ) -> None:
+        self._mbs = mbs
+        self.settings = copied_settings(settings)
+        integration = self.settings.timeIntegration
+        if step is None:
+            step = DEFAULT_STEP
+            if settings is not None:
+                step = (integration.endTime - integration.startTime) / integration.numberOfSteps
+        self.step = float(step)
+        if not (np.isfinite(self.step) and self.step > 0.0):
+            raise AnalysisError(f"{name}: step = {step!r} s: give a time step above 0 s")
+        if solver_type is None:
+            solver_type = DEFAULT_SOLVER if settings is None else integration.solverType
+        if isinstance(solver_type, str):
+            if solver_type not in exu.DynamicSolverType.__members__:
+                known = ", ".join(sorted(exu.DynamicSolverType.__members__))
+                raise AnalysisError(f"{name}: no solver type {solver_type!r}; known are {known}")
+            solver_type = exu.DynamicSolverType.__members__[solver_type]
+        self.solver_type = solver_type
+        self._sensors = _state_sensors(mbs, name)
+
+    @property
+    def nodes(self) -> list[int]:
+        """Numbers of the nodes whose coordinates are recorded."""
+        return [node for node, *_ in self._sensors]
+
+    def run(
+        self,
+        coordinates: Array,
+        velocities: Array,
+        first_order: Array,
+        steps: int,
+        duration: float,
+    ) -> str | None:
+        """Run from coordinates and velocities (nq,), (nq,) and first-order ones (n1,).
+
+        Returns the reason if it ended before the duration [s]. The system's initial values are
+        left as they were.
+        """
+        data, initial = self._mbs.systemData, exu.ConfigurationType.Initial
+        kept = [
+            data.GetODE2Coordinates(initial),
+            data.GetODE2Coordinates_t(initial),
+            data.GetODE1Coordinates(initial),
+        ]
+        settings = self.settings
+        settings.timeIntegration.startTime = 0.0
+        settings.timeIntegration.endTime = duration
+        settings.timeIntegration.numberOfSteps = steps
+        settings.solution.sensors.active = True
+        # Half a step: every step is stored, whatever the rounding of the times.
+        settings.solution.sensors.writePeriod = 0.5 * duration / steps
+        try:
+            data.SetODE2Coordinates(coordinates, initial)
+            data.SetODE2Coordinates_t(velocities, initial)
+            if len(first_order):
+                data.SetODE1Coordinates(first_order, initial)
+            with QuietExudyn():
+                success = self._mbs.SolveDynamic(
+                    settings, solverType=self.solver_type, showHints=False
+                )
+            return None if success else "Exudyn's solver did not converge"
+        except Exception as error:
+            return failure_words(error)
+        finally:
+            data.SetODE2Coordinates(kept[0], initial)
+            data.SetODE2Coordinates_t(kept[1], initial)
+            if len(first_order):
+                data.SetODE1Coordinates(kept[2], initial)
+            data.SetTime(0.0)
+
+    def recorded(self) -> tuple[Array, Array, Array]:
+        """Coordinates, velocities (m, nq) and first-order ones (m, n1) of the last run's steps."""
+        mbs, data = self._mbs, self._mbs.systemData
+        rows = len(mbs.GetSensorStoredData(self._sensors[0][1]))
+        coordinates = np.zeros((rows, data.ODE2Size()))
+        velocities = np.zeros((rows, data.ODE2Size()))
+        first_order = np.zeros((rows, data.ODE1Size()))
+        for node, positions, rates in self._sensors:
+            stored = mbs.GetSensorStoredData(positions)[:, 1:]
+            indices = data.GetNodeLTGODE2(node)
+            if len(indices):
+                coordinates[:, indices] = stored
+                velocities[:, indices] = mbs.GetSensorStoredData(rates)[:, 1:]
+            else:
+                first_order[:, data.GetNodeLTGODE1(node)] = stored
+        return coordinates, velocities, first_order
+
+
+def _state_sensors(mbs: Any, name: str) -> list[tuple[int, int, int]]:
+    """Add sensors of every node's coordinates and velocities: node, sensor, sensor."""
+    nodes = [mbs.GetNode(node) for node in range(mbs.systemData.NumberOfNodes())]
+    hidden = [node["name"] for node in nodes if node["nodeType"] == "GenericData"]
+    if hidden:
+        raise AnalysisError(
+            f"{name}: the model has data coordinates (friction or contact memory) in "
+            f"{', '.join(hidden)}; their state is hidden from the analysis: leave them out, or "
+            "replace them by first-order coordinates (ObjectGenericODE1)"
+        )
+    types = exu.OutputVariableType
+    sensors = []
+    for number, node in enumerate(nodes):
+        if "Ground" in node["nodeType"]:
+            continue
+        added = [
+            mbs.AddSensor(
+                SensorNode(
+                    nodeNumber=number,
+                    storeInternal=True,
+                    writeToFile=False,
+                    outputVariableType=what,
+                    name=f"state of node {number}: {what.name}",
+                )
+            )
+            for what in (types.Coordinates, types.Coordinates_t)
+            if not (what == types.Coordinates_t and node["nodeType"] == "GenericODE1")
+        ]
+        sensors.append((number, added[0], added[-1]))
+    return sensors

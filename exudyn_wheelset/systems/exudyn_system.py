@@ -17,26 +17,22 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
+from exudyn_wheelset.coupling.registration import wheelsets_of
+from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems.exudyn_layout import lay_out
 from exudyn_wheelset.systems.exudyn_running import (
     QuietExudyn,
+    Runner,
     copied_settings,
     failure_words,
 )
+from exudyn_wheelset.systems.exudyn_wheelsets import check_speed_is_a_parameter, rolling_radii
 from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 
-# Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
-DISPLACEMENT_SCALE = 1.0e-3
-VELOCITY_SCALE = 1.0e-2
-# RK44 at this step [s] is within 1 % of the converged growth rate of a wheelset on stiff contact,
-# and explicit steps need no Jacobian of the loads.
-DEFAULT_SOLVER = "RK44"
-DEFAULT_STEP = 5.0e-4
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
 FIRST_SPEED = 10.0
 
@@ -44,14 +40,18 @@ FIRST_SPEED = 10.0
 class ExudynSystem(DynamicSystem):
     """A complete Exudyn model as an autonomous system over the forward speed.
 
+    The wheelsets of `create_wheelset` are found in the model (`wheelsets`, `contacts`): their
+    speed, cyclic spin, steady spin and the lateral displacements to watch follow by themselves.
+
     mbs             the MainSystem; sensors of the nodes are added and it is assembled here, so
                     nothing may be added to it afterwards
     SC              its SystemContainer, which is kept alive
     set_speed       called as set_speed(mbs, speed) before the first evaluation at a speed [m/s],
-                    and once here
-    spinning_nodes  nodes of axisymmetric bodies that spin about their own y axis, whose spin angle
-                    is cyclic; as a mapping node -> rolling radius [m] the steady spin
-                    speed/radius is where the search for the equilibrium starts
+                    and once here; if left out, the speed is that of all wheelsets
+    spinning_nodes  further nodes of axisymmetric bodies that spin about their own y axis, whose
+                    spin angle is cyclic; as a mapping node -> rolling radius [m] the steady spin
+                    speed/radius is where the search for the equilibrium starts. A wheelset's node
+                    may be named to give it another radius than that of its rigid contact
     cyclic          second-order coordinates (indices in the system) whose position has no
                     influence and is left out; their velocity stays a state. As a mapping
                     index -> velocity per forward speed it gives the steady velocity to start from
@@ -65,8 +65,9 @@ class ExudynSystem(DynamicSystem):
     step            largest time step of `simulate` [s]; that of the settings (endTime -
                     startTime)/numberOfSteps if they are given, else 5e-4
 
-    Raises AnalysisError for constraints (algebraic equations), data coordinates (hidden states)
-    and nodes that cannot spin.
+    Raises AnalysisError for constraints (algebraic equations), data coordinates (hidden states),
+    nodes that cannot spin, wheelsets that run over the ground (their speed is no parameter of the
+    model) and a model that has neither wheelsets nor `set_speed`.
     """
 
     def __init__(
@@ -74,7 +75,7 @@ class ExudynSystem(DynamicSystem):
         mbs: exu.MainSystem,
         SC: exu.SystemContainer | None = None,
         *,
-        set_speed: Callable[[exu.MainSystem, float], None],
+        set_speed: Callable[[exu.MainSystem, float], None] | None = None,
         spinning_nodes: Sequence[int] | Mapping[int, float] = (),
         cyclic: Sequence[int] | Mapping[int, float] = (),
         name: str = "Exudyn system",
@@ -91,34 +92,23 @@ class ExudynSystem(DynamicSystem):
         self.mbs: Any = mbs
         self.parameters = dict(parameters or {})
         self._container = SC
-        self._set_speed = set_speed
+        self.wheelsets = wheelsets_of(mbs)
+        self._set_speed = set_speed or self._set_contact_speeds
+        if set_speed is None:
+            check_speed_is_a_parameter(name, self.wheelsets)
         self._speed: float | None = None
-        self._settings = copied_settings(settings)
-        integration = self._settings.timeIntegration
-        if step is None:
-            step = DEFAULT_STEP
-            if settings is not None:
-                step = (integration.endTime - integration.startTime) / integration.numberOfSteps
-        self.step = float(step)
-        if solver_type is None:
-            solver_type = DEFAULT_SOLVER if settings is None else integration.solverType
-        if isinstance(solver_type, str):
-            if solver_type not in exu.DynamicSolverType.__members__:
-                known = ", ".join(sorted(exu.DynamicSolverType.__members__))
-                raise AnalysisError(f"{name}: no solver type {solver_type!r}; known are {known}")
-            solver_type = exu.DynamicSolverType.__members__[solver_type]
-        self._solver_type = solver_type
-
-        self._add_sensors()
+        self._runner = Runner(self.mbs, name, settings, solver_type, step)
         # Exudyn evaluates the loads when a solver begins, so that they need some speed by then.
-        set_speed(mbs, FIRST_SPEED)
+        self._set_speed(mbs, FIRST_SPEED)
         mbs.Assemble()
         self._data: Any = mbs.systemData
         self._initialise_solver()
+        spinning = _as_mapping(spinning_nodes)
+        unknown = [items for items in self.wheelsets if items.node not in spinning]
         layout = lay_out(
             mbs,
-            [node for node, *_ in self._sensors],
-            _as_mapping(spinning_nodes),
+            self._runner.nodes,
+            {**rolling_radii(unknown), **spinning},
             _as_mapping(cyclic),
             name,
         )
@@ -134,8 +124,7 @@ class ExudynSystem(DynamicSystem):
         size = len(layout.names)
         self.state_names = tuple(state_names or layout.names)
         if scales is None:
-            scales = [DISPLACEMENT_SCALE] * self._positions + [VELOCITY_SCALE] * self._order2
-            scales += [VELOCITY_SCALE] * self._order1
+            scales = layout.scales
         self.scales = np.array(scales, dtype=float)
         for what, length in (("state_names", len(self.state_names)), ("scales", len(self.scales))):
             if length != size:
@@ -146,7 +135,23 @@ class ExudynSystem(DynamicSystem):
         if displacement_indices is None:
             displacement_indices = range(self._positions)
         self.displacement_indices = tuple(displacement_indices)
+        places = [
+            layout.wheelset_states([int(k) for k in self._data.GetNodeLTGODE2(items.node)])
+            for items in self.wheelsets
+        ]
+        self.lateral_indices = tuple(lateral for lateral, _ in places if lateral >= 0)
+        self.yaw_indices = tuple(yaw for lateral, yaw in places if lateral >= 0)
         self._check_mass_matrix()
+
+    @property
+    def contacts(self) -> tuple[WheelRailContact, ...]:
+        """Contacts of the wheelsets, in the order of their creation."""
+        return tuple(items.contact for items in self.wheelsets)
+
+    @property
+    def step(self) -> float:
+        """Largest time step of `simulate` [s]."""
+        return self._runner.step
 
     def derivative(self, state: Array, speed: float) -> Array:
         """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,).
@@ -255,11 +260,15 @@ class ExudynSystem(DynamicSystem):
         interval = (times[-1] - times[0]) / (len(times) - 1)
         uniform = bool(np.allclose(np.diff(times), interval, rtol=1e-9))
         if uniform:
-            per_sample = max(1, int(np.ceil(interval / self.step - 1e-9)))
+            per_sample = max(1, int(np.ceil(interval / self._runner.step - 1e-9)))
             steps = per_sample * (len(times) - 1)
         else:
-            steps = int(np.ceil((times[-1] - times[0]) / self.step))
-        reason = self._solve(state, steps, float(times[-1] - times[0]))
+            steps = int(np.ceil((times[-1] - times[0]) / self._runner.step))
+        state = np.asarray(state, dtype=float)
+        coordinates, velocities = self.expand(state)
+        first_order = state[len(state) - self._order1 :]
+        duration = float(times[-1] - times[0])
+        reason = self._runner.run(coordinates, velocities, first_order, steps, duration)
         raw = self._stored_states()
         if uniform:
             raw = raw[::per_sample]
@@ -287,35 +296,12 @@ class ExudynSystem(DynamicSystem):
         return {
             **record,
             "parameters": self.parameters,
-            "solver": str(self._solver_type).split(".")[-1],
-            "step": self.step,
+            "solver": str(self._runner.solver_type).split(".")[-1],
+            "step": self._runner.step,
         }
 
-    def _add_sensors(self) -> None:
-        types = exu.OutputVariableType
-        self._sensors: list[tuple[int, int, int]] = []
-        nodes = self.mbs.systemData.NumberOfNodes()
-        for node in range(nodes):
-            kind = self.mbs.GetNode(node)["nodeType"]
-            if "Ground" in kind:
-                continue
-            sensors = [
-                self.mbs.AddSensor(
-                    SensorNode(
-                        nodeNumber=node,
-                        storeInternal=True,
-                        writeToFile=False,
-                        outputVariableType=what,
-                        name=f"state of node {node}: {what.name}",
-                    )
-                )
-                for what in (types.Coordinates, types.Coordinates_t)
-                if not (what == types.Coordinates_t and kind == "GenericODE1")
-            ]
-            self._sensors.append((node, sensors[0], sensors[-1]))
-
     def _initialise_solver(self) -> None:
-        settings = copied_settings(self._settings)
+        settings = copied_settings(self._runner.settings)
         settings.solution.sensors.active = False
         solver: Any = exu.MainSolverImplicitSecondOrder()
         try:
@@ -335,11 +321,10 @@ class ExudynSystem(DynamicSystem):
                 "(joints, constraints or Euler parameters), which this analysis does not treat; "
                 "replace joints by stiff springs and use NodeType.RotationRotationVector"
             )
-        if self._data.DataSize():
-            raise AnalysisError(
-                f"{self.name}: the model has {self._data.DataSize()} data coordinates (friction "
-                "or contact memory); their state is hidden from the analysis: leave them out"
-            )
+
+    def _set_contact_speeds(self, mbs: Any, speed: float) -> None:
+        for contact in self.contacts:
+            contact.set_speed(speed)
 
     def _check_mass_matrix(self) -> None:
         """Keep the inverse of the mass matrix if it is the same at some distance."""
@@ -384,56 +369,10 @@ class ExudynSystem(DynamicSystem):
             self._set_speed(self.mbs, float(speed))
             self._speed = speed
 
-    def _solve(self, state: Array, steps: int, duration: float) -> str | None:
-        """Run Exudyn's solver from a state; the reason if it ended early."""
-        data, initial = self._data, exu.ConfigurationType.Initial
-        kept = [
-            data.GetODE2Coordinates(initial),
-            data.GetODE2Coordinates_t(initial),
-            data.GetODE1Coordinates(initial),
-        ]
-        coordinates, velocities = self.expand(state)
-        settings = self._settings
-        settings.timeIntegration.startTime = 0.0
-        settings.timeIntegration.endTime = duration
-        settings.timeIntegration.numberOfSteps = steps
-        settings.solution.sensors.active = True
-        # Half a step: every step is stored, whatever the rounding of the times.
-        settings.solution.sensors.writePeriod = 0.5 * duration / steps
-        try:
-            data.SetODE2Coordinates(coordinates, initial)
-            data.SetODE2Coordinates_t(velocities, initial)
-            if self._order1:
-                data.SetODE1Coordinates(np.asarray(state)[-self._order1 :], initial)
-            with QuietExudyn():
-                success = self.mbs.SolveDynamic(
-                    settings, solverType=self._solver_type, showHints=False
-                )
-            return None if success else "Exudyn's solver did not converge"
-        except Exception as error:
-            return failure_words(error)
-        finally:
-            data.SetODE2Coordinates(kept[0], initial)
-            data.SetODE2Coordinates_t(kept[1], initial)
-            if self._order1:
-                data.SetODE1Coordinates(kept[2], initial)
-            data.SetTime(0.0)
-
     def _stored_states(self) -> Array:
-        """States (steps + 1, n) from the sensors of the last run."""
-        mbs, data = self.mbs, self._data
-        rows = len(mbs.GetSensorStoredData(self._sensors[0][1]))
-        coordinates = np.zeros((rows, self._order2))
-        velocities = np.zeros((rows, self._order2))
-        first_order = np.zeros((rows, self._order1))
-        for node, positions, rates in self._sensors:
-            stored = mbs.GetSensorStoredData(positions)[:, 1:]
-            indices = data.GetNodeLTGODE2(node)
-            if len(indices):
-                coordinates[:, indices] = stored
-                velocities[:, indices] = mbs.GetSensorStoredData(rates)[:, 1:]
-            else:
-                first_order[:, data.GetNodeLTGODE1(node)] = stored
+        """States (steps + 1, n) of the last run."""
+        coordinates, velocities, first_order = self._runner.recorded()
+        rows = len(coordinates)
         states = np.empty((rows, len(self.state_names)))
         for row in range(rows):
             reduce_coordinates(

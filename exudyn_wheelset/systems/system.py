@@ -50,12 +50,16 @@ class DynamicSystem(ABC):
     state_names           (n) "y [m]", "yaw [rad]", ..., then the velocities; units in brackets
     scales                (n) typical magnitude of each state, for norms and difference steps
     displacement_indices  entries whose amplitude (half of peak to peak) is reported
+    lateral_indices, yaw_indices  lateral displacement and yaw of each wheelset, in their order,
+                          where the system knows its wheelsets
     """
 
     name: str
     state_names: tuple[str, ...]
     scales: Array
     displacement_indices: tuple[int, ...]
+    lateral_indices: tuple[int, ...] = ()
+    yaw_indices: tuple[int, ...] = ()
 
     @property
     def size(self) -> int:

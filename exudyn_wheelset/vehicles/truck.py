@@ -36,12 +36,13 @@ from scipy.optimize import brentq
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
-from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
+from exudyn_wheelset.coupling.create import create_wheelset
+from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
+from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP, create_spin_drive
 from exudyn_wheelset.vehicles.wheelset_on_frame import GRAVITY, Suspension
 
 
@@ -253,20 +254,14 @@ class Truck:
 
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
+        if self.driven and options.get("settings") is None and options.get("step") is None:
+            options = {**options, "step": DRIVEN_STEP}
         container, mbs, items = self.build(20.0, sensors=False, show=False)
-        rolling = self.wheelset.radius
-        if not self.driven:
-            rolling = contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0]
-
-        def set_speed(_: Any, speed: float) -> None:
-            for contact in items.contacts:
-                contact.set_speed(speed)
-
+        spinning = dict.fromkeys((one.node for one in items.wheelsets), self.wheelset.radius)
         return ExudynSystem(
             mbs,
             container,
-            set_speed=set_speed,
-            spinning_nodes={one.node: float(rolling) for one in items.wheelsets},
+            spinning_nodes=spinning if self.driven else {},
             name=self.name,
             parameters=self.parameters(),
             **options,

@@ -16,11 +16,11 @@ import numpy as np
 from exudyn.utilities import LoadForceVector, MarkerBodyRigid, ObjectConnectorCartesianSpringDamper
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.coupling.create import WheelsetItems, create_wheelset
+from exudyn_wheelset.coupling.create import create_wheelset
+from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
+from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP, create_spin_drive
 
 GRAVITY = 9.81
 
@@ -114,18 +114,13 @@ class WheelsetOnFrame:
 
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
-        if self.driven and "settings" not in options:
-            # The drive's rate of some 8e3 1/s is beyond RK44 at ExudynSystem's own step.
-            options.setdefault("step", 1.0e-4)
+        if self.driven and options.get("settings") is None and options.get("step") is None:
+            options = {**options, "step": DRIVEN_STEP}
         container, mbs, items = self.build(20.0, sensors=False, show=False)
-        rolling = self.wheelset.radius
-        if not self.driven:
-            rolling = contact_geometry(self.wheelset, self.track, [0.0]).left.radius[0]
         return ExudynSystem(
             mbs,
             container,
-            set_speed=lambda _, speed: items.contact.set_speed(speed),
-            spinning_nodes={items.node: float(rolling)},
+            spinning_nodes={items.node: self.wheelset.radius} if self.driven else {},
             name=self.name,
             parameters=self.parameters(),
             **options,

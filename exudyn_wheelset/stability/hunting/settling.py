@@ -163,13 +163,16 @@ class Motion:
 def watched_index(system: DynamicSystem, watch: str | int | None = None) -> int:
     """State whose peaks are watched: by name or index; else the first lateral displacement.
 
-    Lateral means a name that begins with y (after the body's name and a colon); without one it
-    is the first displacement.
+    That is the first wheelset's where the system knows its wheelsets. Elsewhere lateral means a
+    name that begins with y (after the body's name and a colon); without one it is the first
+    displacement.
     """
     if isinstance(watch, str):
         return column_index(system.state_names, watch)
     if watch is not None:
         return int(watch)
+    if system.lateral_indices:
+        return system.lateral_indices[0]
     for index in system.displacement_indices:
         name = system.state_names[index].split(": ")[-1].split(" [")[0]
         if name == "y" or name.startswith("y_"):
