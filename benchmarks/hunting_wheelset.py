@@ -31,7 +31,8 @@ from multiprocessing import get_context  # noqa: E402
 from exudyn_wheelset.stability.hunting.branch import Branch  # noqa: E402
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent  # noqa: E402
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles  # noqa: E402
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, linear_critical_speed  # noqa: E402
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed  # noqa: E402
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint  # noqa: E402
 from exudyn_wheelset.systems.system import DynamicSystem  # noqa: E402
 from exudyn_wheelset.vehicles.catalogue import entry, vehicle_system  # noqa: E402
 

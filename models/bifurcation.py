@@ -45,7 +45,7 @@ from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_desc
 from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import watched_index
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, hopf_points
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.catalogue import CATALOGUE, entry, vehicle_system
 

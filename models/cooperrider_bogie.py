@@ -26,7 +26,8 @@ from exudyn_wheelset.front.settings import load_settings
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, linear_critical_speed
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES, cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system

@@ -33,12 +33,9 @@ from exudyn_wheelset.front.plots import (
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
-from exudyn_wheelset.stability.linear.critical_speed import (
-    CriticalPoint,
-    linear_critical_speed,
-    linearise,
-    root_locus,
-)
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint
+from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.truck import Truck, TruckItems, dtu_truck
 from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame

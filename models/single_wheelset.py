@@ -30,11 +30,9 @@ from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
 from exudyn_wheelset.geometry.rigid import contact_geometry
-from exudyn_wheelset.stability.linear.critical_speed import (
-    CriticalPoint,
-    linear_critical_speed,
-    linearise,
-)
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint
+from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles import paper_wheelset as paper
 from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame

@@ -23,7 +23,8 @@ from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import changed_settings, load_settings
-from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed, root_locus
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.linearisation import root_locus
 from exudyn_wheelset.vehicles import paper_wheelset as paper
 
 PUBLISHED = {

@@ -16,7 +16,7 @@ import pytest
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import as_system
 from exudyn_wheelset.vehicles.catalogue import CATALOGUE, vehicle, vehicle_system
 

@@ -16,12 +16,9 @@ from hypothesis.extra.numpy import arrays
 from scipy.integrate import solve_ivp
 
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.stability.linear.critical_speed import (
-    divergence_points,
-    hopf_points,
-    linear_critical_speed,
-    linearise,
-)
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.crossings import divergence_points, hopf_points
+from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.vehicles.cooperrider_bogie import (

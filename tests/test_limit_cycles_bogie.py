@@ -16,7 +16,7 @@ from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode
-from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.vehicles.cooperrider_bogie import cooperrider_system
 from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 

@@ -16,7 +16,7 @@ from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, 
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import NoLimitCycleError, nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.settling import Settling
-from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import FunctionSystem
 
 

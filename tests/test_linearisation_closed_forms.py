@@ -9,14 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.stability.linear.critical_speed import (
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.crossings import (
     divergence_points,
     hopf_points,
-    linear_critical_speed,
-    linearise,
-    root_locus,
     stability_changes,
 )
+from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
 from exudyn_wheelset.systems.system import FunctionSystem, SimulationError, as_system
 
 
@@ -126,7 +125,7 @@ def test_a_critical_speed_is_a_number():
 @pytest.mark.parametrize(
     ("low", "high", "words"),
     [
-        (1.0, 20.0, "every oscillation is damped.*-2.9.* at 1 m/s.*-1 1/s at 20 m/s"),
+        (1.0, 20.0, "every lateral oscillation is damped.*-2.9.* at 1 m/s.*-1 1/s at 20 m/s"),
         (40.0, 60.0, "grows at every speed.*lower the lower speed"),
         (60.0, 40.0, "must rise"),
     ],

@@ -23,7 +23,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.stability.linear.critical_speed import linearise
+from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import SimulationError
 

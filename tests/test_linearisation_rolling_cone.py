@@ -15,7 +15,8 @@ import pytest
 from exudyn.utilities import Force, MarkerBodyRigid, RigidBodyInertia, Torque
 from numba import njit
 
-from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed, linearise
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 
 RADIUS, CONICITY, HALF_GAUGE, LOAD, FRICTION = 0.45, 0.05, 0.75, 8.0e4, 0.3

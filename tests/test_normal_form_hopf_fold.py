@@ -15,7 +15,7 @@ from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.stability.linear.critical_speed import hopf_points
+from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import FunctionSystem
 
 DECAY = 0.3

@@ -17,7 +17,8 @@ from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.creep import kalker_coefficients
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
-from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed, linearise
+from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
+from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.vehicles.truck import Truck, dtu_truck
 from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
 

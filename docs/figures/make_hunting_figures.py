@@ -21,7 +21,7 @@ from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, hopf_points
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.catalogue import entry, vehicle, vehicle_system
 

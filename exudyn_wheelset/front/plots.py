@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.geometry.piecewise import COLUMNS, PiecewiseGeometry, geometry_columns
 from exudyn_wheelset.geometry.rigid import ContactGeometry
-from exudyn_wheelset.stability.linear.critical_speed import RootLocus
+from exudyn_wheelset.stability.linear.linearisation import RootLocus
 
 LEFT_COLOUR, RIGHT_COLOUR = "#1f6fb4", "#d1495b"
 WHEEL_COLOUR, RAIL_COLOUR, GREY = "#3b4252", "#8a6d3b", "#8a8f98"

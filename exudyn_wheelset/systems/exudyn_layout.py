@@ -39,6 +39,7 @@ class Layout:
     reference          (k, 3) reference rotation vectors [rad]
     steady_velocities  (second-order coordinate, velocity per forward speed) in steady running
     names, scales      of all states
+    wheelsets          position x [m] of the spinning bodies by their label in the names
     """
 
     positions: int
@@ -56,6 +57,8 @@ class Layout:
         """
         row = int(np.flatnonzero(self.rotations[:, 0] == indices[3])[0])
         return int(self.position_of[indices[1]]), int(self.rotations[row, 1])
+
+    wheelsets: Mapping[str, float]
 
 
 def lay_out(
@@ -88,12 +91,15 @@ def lay_out(
     rotations: list[tuple[int, int, int]] = []
     reference: list[Array] = []
     steady = list(cyclic.items())
+    wheelsets: dict[str, float] = {}
     for node, indices in indices_of.items():
         description = mbs.GetNode(node)
         kind = description["nodeType"]
         label = labels[node]
         prefix = f"{label}: " if moving > 1 else ""
         rigid, spins = kind == ROTATION_VECTOR_NODE, node in spinning
+        if spins:
+            wheelsets[label if moving > 1 else ""] = description["referenceCoordinates"][0]
         if spins and not rigid:
             raise AnalysisError(
                 f"{name}: node {node} ({kind}) cannot spin; create the body with "
@@ -140,6 +146,7 @@ def lay_out(
             *(VELOCITY_SCALE for _ in velocity_names),
             *(first_order[index][1] for index in sorted(first_order)),
         ),
+        wheelsets=wheelsets,
     )
 
 

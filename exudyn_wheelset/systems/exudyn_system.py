@@ -32,6 +32,7 @@ from exudyn_wheelset.systems.exudyn_running import (
 from exudyn_wheelset.systems.exudyn_wheelsets import check_speed_is_a_parameter, rolling_radii
 from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
+from exudyn_wheelset.systems.trucks import trucks_by_distance
 
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
 FIRST_SPEED = 10.0
@@ -117,6 +118,8 @@ class ExudynSystem(DynamicSystem):
         self._rotations = layout.rotations
         self._reference = layout.reference
         self._steady_velocities = layout.steady_velocities
+        self.wheelsets = tuple(layout.wheelsets)
+        self.trucks = trucks_by_distance(layout.wheelsets)
         self._coordinates = np.zeros(self._order2)
         self._velocities = np.zeros(self._order2)
         self._first_order = np.zeros(self._order1)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import platform
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,9 @@ class DynamicSystem(ABC):
     displacement_indices  entries whose amplitude (half of peak to peak) is reported
     lateral_indices, yaw_indices  lateral displacement and yaw of each wheelset, in their order,
                           where the system knows its wheelsets
+    wheelsets             labels of the wheelsets in the state names ("leading" of "leading: y
+                          [m]"); empty where every body with y and yaw may be one
+    trucks                labels of the wheelsets of each truck, by its name; empty for one truck
     """
 
     name: str
@@ -60,6 +64,8 @@ class DynamicSystem(ABC):
     displacement_indices: tuple[int, ...]
     lateral_indices: tuple[int, ...] = ()
     yaw_indices: tuple[int, ...] = ()
+    wheelsets: tuple[str, ...] = ()
+    trucks: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 
     @property
     def size(self) -> int:

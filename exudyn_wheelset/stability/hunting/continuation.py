@@ -32,7 +32,7 @@ from exudyn_wheelset.stability.hunting.collocation import (
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import Solution, solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_mesh
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.systems.system import Array
 
 

@@ -33,7 +33,7 @@ from exudyn_wheelset.stability.hunting.settling import (
     typical_period,
     watched_index,
 )
-from exudyn_wheelset.stability.linear.critical_speed import linearise
+from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearise
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "quasi-static descent"
@@ -311,12 +311,9 @@ class _Run:
 
 
 def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:
-    """State (n,): equilibrium plus the least damped oscillatory mode, `size` times its scale."""
+    """State (n,): equilibrium plus the least damped hunting mode, `size` times its scale."""
     linear = linearise(system, speed)
-    pairs = np.flatnonzero(linear.eigenvalues.imag > 1e-6 * np.abs(linear.eigenvalues).max())
-    if len(pairs) == 0:
-        raise AnalysisError(f"{system.name} does not oscillate at {speed:g} m/s; give a state")
-    mode = linear.eigenvectors[:, pairs[np.argmax(linear.eigenvalues[pairs].real)]]
+    _, mode = hunting_mode(linear)
     displacements = list(system.displacement_indices)
     relative = np.abs(mode / system.scales)[displacements]
     leading = displacements[int(np.argmax(relative))]

@@ -31,7 +31,7 @@ from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settling import orbit_near, watched_index
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of_orbit
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 

@@ -20,7 +20,7 @@ from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import Settling
-from exudyn_wheelset.stability.linear.critical_speed import CriticalPoint, hopf_points
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.system import as_system
 
 Method = Literal["continuation", "descent"]

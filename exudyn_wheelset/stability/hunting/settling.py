@@ -26,6 +26,7 @@ from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
+from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearise
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 SAMPLES = 64
@@ -246,19 +247,11 @@ def orbit_near(
 
 
 def typical_period(system: DynamicSystem, speed: float) -> float:
-    """Period [s] of the least damped oscillation about the equilibrium at a speed [m/s]."""
-    state = system.equilibrium(speed)
-    scales = system.scales
-    matrix = system.jacobian(state, speed) * scales[None, :] / scales[:, None]
-    values = np.linalg.eigvals(matrix)
-    pairs = values[values.imag > 1e-3 * np.abs(values).max() * 1e-3]
-    if len(pairs) == 0:
-        raise AnalysisError(
-            f"{system.name} does not oscillate about its equilibrium at {speed:g} m/s; give the "
-            "period of the motion"
-        )
-    damping = -pairs.real / np.abs(pairs)
-    return float(2.0 * np.pi / pairs[np.argmin(damping)].imag)
+    """Period [s] of the least damped hunting mode about the equilibrium at a speed [m/s].
+
+    Of the least damped oscillation where no mode hunts. Raises AnalysisError if nothing oscillates.
+    """
+    return 2.0 * np.pi / abs(hunting_mode(linearise(system, speed))[0].imag)
 
 
 def _peak(values: Array) -> float:

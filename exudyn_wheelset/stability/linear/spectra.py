@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.modes import is_lateral
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 # A pair counts as unstable above this fraction of its |eigenvalue|: undamped modes (a spring
@@ -33,6 +34,8 @@ class Spectra:
         self.evaluations = 0
         self._states: dict[float, Array] = {}
         self._values: dict[float, Array] = {}
+        self._jacobians: dict[float, Array] = {}
+        self._pairs: dict[float, tuple[Array, Array]] = {}
         self._start: tuple[float, Array] | None = None
 
     def start_from(self, speed: float, state: Array) -> None:
@@ -56,6 +59,7 @@ class Spectra:
             values = np.linalg.eigvals(jacobian * scales[None, :] / scales[:, None])
             self.evaluations += 1
             self._states[speed] = state
+            self._jacobians[speed] = jacobian
             self._values[speed] = values
         return self._values[speed]
 
@@ -72,6 +76,28 @@ class Spectra:
     def unstable(self, kind: Kind, speed: float) -> int:
         return int(np.count_nonzero(self.excess(kind, speed) > 0.0))
 
+    def pairs(self, speed: float) -> tuple[Array, Array]:
+        """Oscillatory roots (k,) at a speed and their modes (n, k), the least damped first."""
+        if speed not in self._pairs:
+            self.eigenvalues(speed)
+            scales = self.system.scales
+            matrix = self._jacobians[speed] * scales[None, :] / scales[:, None]
+            values, vectors = np.linalg.eig(matrix)
+            rows = np.flatnonzero(oscillates(values))
+            rows = rows[np.argsort(-values.real[rows], kind="stable")]
+            self._pairs[speed] = values[rows], scales[:, None] * vectors[:, rows]
+        return self._pairs[speed]
+
+    def lateral_pairs(self, speed: float) -> Array:
+        """Oscillatory roots (k,) whose modes are lateral, the least damped first."""
+        values, modes = self.pairs(speed)
+        return values[[is_lateral(self.system, mode) for mode in modes.T]]
+
+    def lateral_excess(self, speed: float) -> float:
+        """By how much the least damped lateral pair exceeds the neutral margin [1/s]."""
+        values = self.lateral_pairs(speed)
+        return float(np.max(values.real - NEUTRAL_FRACTION * np.abs(values), initial=-np.inf))
+
     def nearest(self, speed: float, eigenvalue: complex) -> complex:
         """The oscillatory root nearest to an eigenvalue."""
         pairs = oscillatory_pairs(self.eigenvalues(speed))
@@ -80,9 +106,14 @@ class Spectra:
         return complex(pairs[np.argmin(np.abs(pairs - eigenvalue))])
 
 
+def oscillates(values: Array) -> Array:
+    """Whether each root (n,) stands for an oscillatory pair: the one of positive frequency."""
+    return values.imag > 2.0 * np.pi * LOWEST_FREQUENCY
+
+
 def oscillatory_pairs(values: Array) -> Array:
     """One root of each oscillatory pair, the one with positive imaginary part."""
-    return values[values.imag > 2.0 * np.pi * LOWEST_FREQUENCY]
+    return values[oscillates(values)]
 
 
 def real_roots(values: Array) -> Array:

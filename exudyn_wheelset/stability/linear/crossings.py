@@ -1,0 +1,228 @@
+"""Speeds at which an eigenvalue of the steady run crosses the imaginary axis.
+
+Where a complex pair crosses the imaginary axis the system hunts with the frequency of the pair
+(Hopf bifurcation); where a bare real root crosses it diverges. A crossing is bracketed by the
+number of unstable roots at two speeds: the real parts sorted by size are continuous functions of
+speed even where two modes change places, so a bracketed root of the k-th of them is the crossing,
+and no mode has to be followed by its shape.
+
+Speeds in m/s, eigenvalues in 1/s, frequencies in Hz.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Literal
+
+import numpy as np
+from scipy.optimize import brentq
+
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.linearisation import linearise
+from exudyn_wheelset.stability.linear.modes import NAMELESS, mode_name
+from exudyn_wheelset.stability.linear.spectra import (
+    NEUTRAL_FRACTION,
+    NEUTRAL_RATE,
+    Kind,
+    Spectra,
+    oscillatory_pairs,
+    real_roots,
+)
+from exudyn_wheelset.systems.system import Array, as_system
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalPoint(float):
+    """A speed at which the steady run loses or gains stability; it is a float, the speed itself.
+
+    speed        [m/s]
+    frequency    of the mode [Hz]; 0 for a divergence
+    eigenvalue   [1/s], its real part zero to the tolerance
+    mode         eigenvector (n,) over `state_names`, complex; the largest reported displacement
+                 (measured in the system's scales) has phase zero and the size of its scale
+    state        equilibrium (n,)
+    slope        change of the real part with speed [1/m]
+    kind         "hopf" (a pair crosses) or "divergence" (a bare real root crosses)
+    evaluations  number of speeds at which the equations were linearised to find it
+    mode_name    what moves: "truck hunting", "front truck hunting", "car body upper sway", ...
+    remarks      what else is known of stability that is worse than this answer
+    """
+
+    speed: float
+    frequency: float
+    eigenvalue: complex
+    mode: Array
+    state: Array
+    slope: float
+    kind: Kind
+    state_names: tuple[str, ...]
+    evaluations: int
+    mode_name: str = ""
+    remarks: tuple[str, ...] = ()
+
+    def __new__(cls, speed: float, *_: Any, **__: Any) -> CriticalPoint:
+        return super().__new__(cls, speed)
+
+    @property
+    def direction(self) -> Literal["loses stability", "gains stability"]:
+        """What a rising speed does to the root that crosses."""
+        return "loses stability" if self.slope > 0.0 else "gains stability"
+
+    def __str__(self) -> str:
+        what = [f"{self.frequency:.4g} Hz" if self.kind == "hopf" else "divergence"]
+        if self.mode_name not in ("", *what, NAMELESS):
+            what.append(self.mode_name)
+        return f"{self.speed:.4f} m/s ({', '.join([*what, self.direction])})"
+
+
+def stability_changes(
+    vehicle: Any, low: float, high: float, *, points: int = 80, tolerance: float = 1e-6
+) -> list[CriticalPoint]:
+    """All speeds in [low, high] m/s at which a pair or a real root crosses zero, by rising speed.
+
+    Raises AnalysisError where the system has no equilibrium.
+    """
+    spectra = Spectra(as_system(vehicle))
+    check_range(low, high, points)
+    speeds = np.linspace(low, high, points)
+    found: list[CriticalPoint] = []
+    kinds: tuple[Kind, ...] = ("hopf", "divergence")
+    for kind in kinds:
+        for left, right in pairwise(speeds):
+            before, after = spectra.unstable(kind, left), spectra.unstable(kind, right)
+            for index in range(min(before, after), max(before, after)):
+                point = crossing(spectra, kind, index, left, right, tolerance)
+                if point is not None:
+                    found.append(point)
+    return sorted(found)
+
+
+def hopf_points(
+    vehicle: Any, low: float, high: float, *, points: int = 80, tolerance: float = 1e-6
+) -> list[CriticalPoint]:
+    """All speeds in [low, high] m/s at which an oscillatory pair crosses zero, by rising speed."""
+    changes = stability_changes(vehicle, low, high, points=points, tolerance=tolerance)
+    return [change for change in changes if change.kind == "hopf"]
+
+
+def divergence_points(
+    vehicle: Any, low: float, high: float, *, points: int = 80, tolerance: float = 1e-6
+) -> list[CriticalPoint]:
+    """All speeds in [low, high] m/s at which a bare real root crosses zero, by rising speed."""
+    changes = stability_changes(vehicle, low, high, points=points, tolerance=tolerance)
+    return [change for change in changes if change.kind == "divergence"]
+
+
+def check_range(low: float, high: float, points: int) -> None:
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise AnalysisError(f"the range of speeds must rise from low to high, got {low} to {high}")
+    if points < 2:
+        raise AnalysisError(f"a scan needs at least 2 points, got {points}")
+
+
+def crossing(
+    spectra: Spectra, kind: Kind, index: int, left: float, right: float, tolerance: float
+) -> CriticalPoint | None:
+    """Where the root number `index` (by falling real part) crosses zero between two speeds."""
+
+    def excess(speed: float) -> float:
+        sizes = spectra.excess(kind, speed)
+        # A root that has left its kind (a pair fallen apart into two real roots) is far below.
+        return float(sizes[index]) if index < len(sizes) else -1.0e3
+
+    speed = float(brentq(excess, left, right, xtol=max(tolerance, 1e-9), rtol=1e-14))
+    if kind == "divergence":
+        return _divergence(spectra, speed, excess, right if excess(right) > 0.0 else left)
+    roots = oscillatory_pairs(spectra.eigenvalues(speed))
+    if index >= len(roots):
+        return None
+    eigenvalue = complex(roots[np.argsort(NEUTRAL_FRACTION * np.abs(roots) - roots.real)[index]])
+    polished = polish(spectra, speed, eigenvalue, tolerance)
+    if polished is not None and left <= polished[0] <= right:
+        speed, eigenvalue = polished
+    # Where pairs merge into real roots or back the sorted real parts jump over zero: no crossing.
+    if abs(eigenvalue.real) > 1e-4 * abs(eigenvalue):
+        return None
+    return hopf_point(spectra, speed, eigenvalue)
+
+
+def _divergence(
+    spectra: Spectra, speed: float, excess: Callable[[float], float], unstable_end: float
+) -> CriticalPoint | None:
+    """The divergence near the speed where a real root reaches the neutral rate."""
+    roots = real_roots(spectra.eigenvalues(speed))
+    eigenvalue = float(roots[np.argmin(np.abs(roots - NEUTRAL_RATE))])
+    if abs(eigenvalue - NEUTRAL_RATE) > 0.1 * NEUTRAL_RATE:
+        return None
+    step = float(np.clip(unstable_end - speed, -1e-3 * abs(speed), 1e-3 * abs(speed)))
+    slope = (excess(speed + step) - excess(speed)) / step if step else 0.0
+    if slope == 0.0:
+        return None
+    mode, state = _mode(spectra, speed, eigenvalue)
+    return CriticalPoint(
+        # The root found is that of real part = neutral rate: back to zero along its slope.
+        speed=speed - NEUTRAL_RATE / slope,
+        frequency=0.0,
+        eigenvalue=0j,
+        mode=mode,
+        state=state,
+        slope=slope,
+        kind="divergence",
+        state_names=spectra.system.state_names,
+        evaluations=spectra.evaluations,
+        mode_name=mode_name(spectra.system, mode, 0.0),
+    )
+
+
+def polish(
+    spectra: Spectra, speed: float, eigenvalue: complex, tolerance: float
+) -> tuple[float, complex] | None:
+    """Speed and root where the real part of the pair near `eigenvalue` is zero, by a secant."""
+    step = 1e-3 * max(abs(speed), 1.0)
+    before, root_before = speed, spectra.nearest(speed, eigenvalue)
+    now = speed - step if root_before.real > 0.0 else speed + step
+    for _ in range(12):
+        root = spectra.nearest(now, root_before)
+        if root.real == root_before.real:
+            return None
+        following = now - root.real * (now - before) / (root.real - root_before.real)
+        if not np.isfinite(following) or abs(following - now) > 0.2 * max(abs(now), 1.0):
+            return None
+        before, root_before = now, root
+        if abs(following - now) < tolerance:
+            return now, root
+        now = float(following)
+    return None
+
+
+def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalPoint:
+    mode, state = _mode(spectra, speed, eigenvalue)
+    step = 1e-4 * max(abs(speed), 1.0)
+    shifted = spectra.nearest(speed + step, eigenvalue)
+    return CriticalPoint(
+        speed=speed,
+        frequency=abs(eigenvalue.imag) / (2.0 * np.pi),
+        eigenvalue=eigenvalue,
+        mode=mode,
+        state=state,
+        slope=(shifted.real - eigenvalue.real) / step,
+        kind="hopf",
+        state_names=spectra.system.state_names,
+        evaluations=spectra.evaluations,
+        mode_name=mode_name(spectra.system, mode, abs(eigenvalue.imag)),
+    )
+
+
+def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, Array]:
+    """Eigenvector of the root nearest to an eigenvalue, and the equilibrium."""
+    system = spectra.system
+    state = spectra.state(speed)
+    full = linearise(system, speed, state)
+    mode = full.eigenvectors[:, np.argmin(np.abs(full.eigenvalues - eigenvalue))]
+    shown = list(system.displacement_indices)
+    largest = shown[int(np.argmax(np.abs(mode[shown]) / system.scales[shown]))]
+    if mode[largest] == 0.0:
+        largest = int(np.argmax(np.abs(mode) / system.scales))
+    return mode * (system.scales[largest] / mode[largest]), state

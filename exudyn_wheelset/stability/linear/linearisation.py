@@ -1,0 +1,158 @@
+"""The equations about a steady run: equilibrium, Jacobian, eigenvalues and modes at a speed.
+
+About the equilibrium x0(V) of x' = f(x; V) the motion is a sum of v exp(lambda t), lambda the
+eigenvalues and v the eigenvectors (modes) of the Jacobian of f. What a mode is, hunting, sway,
+bounce, is read from what moves in it (see `modes`).
+
+Speeds in m/s, eigenvalues in 1/s, frequencies in Hz.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.modes import (
+    HUNTING_SHARE,
+    hunting_share,
+    is_lateral,
+    mode_name,
+)
+from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, oscillates
+from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+
+
+@dataclass(frozen=True, eq=False)
+class Linearisation:
+    """Equations linearised about the equilibrium at one speed.
+
+    speed           [m/s]
+    state           equilibrium (n,)
+    jacobian        (n, n)
+    eigenvalues     (n,) [1/s], by falling real part
+    eigenvectors    (n, n), columns in the order of the eigenvalues, over the system's states
+    hunting_shares  (n,) share of the wheelsets' lateral and yaw motion in each mode, 0 to 1
+    system          what was linearised
+    """
+
+    speed: float
+    state: Array
+    jacobian: Array
+    eigenvalues: Array
+    eigenvectors: Array
+    hunting_shares: Array
+    system: DynamicSystem = field(repr=False)
+
+    @property
+    def growth_rate(self) -> float:
+        """Real part [1/s] of the least damped hunting mode; -inf if none hunts.
+
+        Hunting modes are those in which the wheelsets move sideways and yaw (see `modes`).
+        """
+        row = self.hunting_row
+        return -np.inf if row is None else float(self.eigenvalues.real[row])
+
+    @property
+    def hunting_row(self) -> int | None:
+        """Place of the least damped hunting mode among the eigenvalues; None if none hunts."""
+        rows = np.flatnonzero(oscillates(self.eigenvalues) & (self.hunting_shares > HUNTING_SHARE))
+        return int(rows[0]) if len(rows) else None
+
+    @property
+    def mode_names(self) -> tuple[str, ...]:
+        """Name of each mode (n) by what moves in it."""
+        frequencies = np.abs(self.eigenvalues.imag) / (2.0 * np.pi)
+        return tuple(
+            mode_name(self.system, mode, frequency)
+            for mode, frequency in zip(self.eigenvectors.T, frequencies, strict=True)
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class RootLocus:
+    """Eigenvalues over speed, each column one root followed by nearness.
+
+    speeds (m,) [m/s], eigenvalues (m, n) [1/s], states (m, n) the equilibria
+    """
+
+    speeds: Array
+    eigenvalues: Array
+    states: Array
+
+
+def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Linearisation:
+    """Eigenvalues and eigenvectors about the equilibrium at a forward speed [m/s].
+
+    `guess` is a state (n,) near the equilibrium. Raises AnalysisError if there is none.
+    """
+    system = as_system(vehicle)
+    state = system.equilibrium(speed, guess)
+    jacobian = system.jacobian(state, speed)
+    check_finite(system, jacobian, speed)
+    # Eigenvectors in scaled states are better conditioned than in metres beside radians/second.
+    scales = system.scales
+    values, vectors = np.linalg.eig(jacobian * scales[None, :] / scales[:, None])
+    order = np.argsort(-values.real, kind="stable")
+    modes = (scales[:, None] * vectors)[:, order]
+    return Linearisation(
+        speed=float(speed),
+        state=state,
+        jacobian=jacobian,
+        eigenvalues=values[order],
+        eigenvectors=modes,
+        hunting_shares=np.array([hunting_share(system, mode) for mode in modes.T]),
+        system=system,
+    )
+
+
+def hunting_mode(linear: Linearisation) -> tuple[complex, Array]:
+    """Eigenvalue [1/s] and mode (n,) of the least damped hunting.
+
+    Where no mode hunts, those of the least damped oscillation, lateral if there is one. Raises
+    AnalysisError if nothing oscillates.
+    """
+    row = linear.hunting_row
+    if row is None:
+        rows = np.flatnonzero(oscillates(linear.eigenvalues))
+        if not len(rows):
+            raise AnalysisError(
+                f"{linear.system.name} does not oscillate about its equilibrium at "
+                f"{linear.speed:g} m/s; give a state to start from, or the period of the motion"
+            )
+        modes = linear.eigenvectors.T[rows]
+        lateral = [
+            row for row, mode in zip(rows, modes, strict=True) if is_lateral(linear.system, mode)
+        ]
+        row = int(lateral[0] if lateral else rows[0])
+    return complex(linear.eigenvalues[row]), linear.eigenvectors[:, row]
+
+
+def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
+    """Eigenvalues at `speeds` (m,) [m/s], each root followed from speed to speed.
+
+    A root goes to the one nearest to its linear extrapolation. Raises AnalysisError.
+    """
+    spectra = Spectra(as_system(vehicle))
+    speeds = np.asarray(speeds, dtype=float)
+    rows: list[Array] = []
+    for index, speed in enumerate(speeds):
+        values = spectra.eigenvalues(speed)
+        if not rows:
+            rows.append(values)
+            continue
+        expected = rows[-1]
+        if index > 1:
+            ratio = (speed - speeds[index - 1]) / (speeds[index - 1] - speeds[index - 2])
+            expected = rows[-1] + ratio * (rows[-1] - rows[-2])
+        _, order = linear_sum_assignment(np.abs(expected[:, None] - values[None, :]))
+        rows.append(values[order])
+    return RootLocus(
+        speeds=speeds,
+        eigenvalues=np.array(rows),
+        states=np.array([spectra.state(speed) for speed in speeds]),
+    )
