@@ -41,7 +41,7 @@ def prescribed(*modes, names=NAMES, wheelsets=("front leading", "rear leading"),
         return np.concatenate([velocity, base @ force])
 
     system = FunctionSystem("prescribed", derivative, states, np.ones(2 * size))
-    system.wheelsets = wheelsets
+    system.wheelset_names = wheelsets
     if trucks:
         system.trucks = {"front": ("front leading",), "rear": ("rear leading",)}
     return system

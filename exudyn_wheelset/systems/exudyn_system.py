@@ -118,7 +118,7 @@ class ExudynSystem(DynamicSystem):
         self._rotations = layout.rotations
         self._reference = layout.reference
         self._steady_velocities = layout.steady_velocities
-        self.wheelsets = tuple(layout.wheelsets)
+        self.wheelset_names = tuple(layout.wheelsets)
         self.trucks = trucks_by_distance(layout.wheelsets)
         self._coordinates = np.zeros(self._order2)
         self._velocities = np.zeros(self._order2)

@@ -56,8 +56,8 @@ def displacements(system: DynamicSystem) -> dict[tuple[str, str], int]:
 
 def wheelset_labels(system: DynamicSystem) -> tuple[str, ...]:
     """Labels of the wheelsets; all bodies that have y and yaw where the system names none."""
-    if system.wheelsets:
-        return system.wheelsets
+    if system.wheelset_names:
+        return system.wheelset_names
     places = displacements(system)
     return tuple(body for body, what in places if what == "y" and (body, "yaw") in places)
 
