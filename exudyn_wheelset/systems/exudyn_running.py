@@ -9,6 +9,7 @@ import numpy as np
 from exudyn.utilities import SensorNode
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 
 Array = np.ndarray
 
@@ -96,10 +97,10 @@ class Runner:
         first_order: Array,
         steps: int,
         duration: float,
-    ) -> str | None:
+    ) -> Outcome:
         """Run from coordinates and velocities (nq,), (nq,) and first-order ones (n1,).
 
-        Returns the reason if it ended before the duration [s]. The system's initial values are
+        Returns how it ended, FINISHED after the whole duration [s]. The system's initial values are
         left as they were.
         """
         data, initial = self._mbs.systemData, exu.ConfigurationType.Initial
@@ -124,9 +125,9 @@ class Runner:
                 success = self._mbs.SolveDynamic(
                     settings, solverType=self.solver_type, showHints=False
                 )
-            return None if success else "Exudyn's solver did not converge"
+            return Outcome(Ending.FINISHED if success else Ending.NO_CONVERGENCE)
         except Exception as error:
-            return failure_words(error)
+            return Outcome(Ending.MODEL_FAILED, failure_words(error))
         finally:
             data.SetODE2Coordinates(kept[0], initial)
             data.SetODE2Coordinates_t(kept[1], initial)

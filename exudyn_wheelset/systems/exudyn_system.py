@@ -22,6 +22,7 @@ from scipy.interpolate import CubicSpline
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.exudyn_layout import lay_out
 from exudyn_wheelset.systems.exudyn_running import (
     QuietExudyn,
@@ -271,7 +272,7 @@ class ExudynSystem(DynamicSystem):
         coordinates, velocities = self.expand(state)
         first_order = state[len(state) - self._order1 :]
         duration = float(times[-1] - times[0])
-        reason = self._runner.run(coordinates, velocities, first_order, steps, duration)
+        outcome = self._runner.run(coordinates, velocities, first_order, steps, duration)
         raw = self._stored_states()
         if uniform:
             raw = raw[::per_sample]
@@ -282,14 +283,15 @@ class ExudynSystem(DynamicSystem):
             reached = times[times <= grid[-1] + 1e-12] if len(grid) else times[:0]
             samples = CubicSpline(grid, raw)(reached) if len(grid) > 1 else raw[: len(reached)]
         finite = int(np.argmin([*np.all(np.isfinite(samples), axis=1), False]))
-        if reason is None and finite < len(times):
-            reason = "the motion is no longer finite"
-        if reason is not None:
+        if outcome.ending is Ending.FINISHED and finite < len(times):
+            outcome = Outcome(Ending.NOT_FINITE)
+        if outcome.ending is not Ending.FINISHED:
             raise SimulationError(
                 f"{self.name}: the motion at {speed:g} m/s ended after "
-                f"{reached[finite - 1] if finite else times[0]:.6g} s: {reason}",
+                f"{reached[finite - 1] if finite else times[0]:.6g} s: {outcome}",
                 reached[:finite],
                 samples[:finite],
+                outcome,
             )
         return samples
 

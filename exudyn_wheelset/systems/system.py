@@ -22,6 +22,7 @@ import scipy
 from scipy.integrate import solve_ivp
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 
 Array = np.ndarray
 
@@ -33,12 +34,19 @@ RUNAWAY = 1.0e9
 
 
 class SimulationError(AnalysisError):
-    """A simulation that ended early; `times` and `states` hold what was computed before."""
+    """A simulation that ended early.
 
-    def __init__(self, message: str, times: Array, states: Array) -> None:
+    times (m,) and states (m, n) hold what was computed before; outcome says how it ended.
+    """
+
+    def __init__(self, message: str, times: Array, states: Array, outcome: Outcome) -> None:
         super().__init__(message)
         self.times = times
         self.states = states
+        self.outcome = outcome
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self), self.times, self.states, self.outcome)
 
 
 class DynamicSystem(ABC):
@@ -153,12 +161,15 @@ class DynamicSystem(ABC):
         states = solution.y.T
         finite = int(np.argmin([*np.all(np.isfinite(states), axis=1), False]))
         if finite < len(times):
-            reason = "it ran away" if solution.status == 1 else solution.message
+            outcome = Outcome(Ending.NO_CONVERGENCE, solution.message)
+            if solution.status == 1:
+                outcome = Outcome(Ending.RAN_AWAY)
             raise SimulationError(
                 f"{self.name}: the motion at {speed:g} m/s ended at sample {finite} of "
-                f"{len(times)}: {reason}",
+                f"{len(times)}: {outcome}",
                 times[:finite],
                 states[:finite],
+                outcome,
             )
         return states
 
