@@ -38,4 +38,5 @@ def test_a_motion_that_runs_away_says_so_and_keeps_what_was_computed():
     for error in (caught.value, pickle.loads(pickle.dumps(caught.value))):
         assert error.outcome.ending is Ending.RAN_AWAY
         assert error.times[-1] == pytest.approx(0.99)
-        assert error.states[:, 0] == pytest.approx(1.0 / (1.0 - error.times), rel=1e-5)
+        # A shift of the blow-up by dt changes x by x^2 dt: the solver's 1e-8 grows to some 1e-4.
+        assert error.states[:, 0] == pytest.approx(1.0 / (1.0 - error.times), rel=1e-4)
