@@ -31,11 +31,11 @@ def forces(wheelset: Wheelset, track: Track, spacing: float, y: np.ndarray) -> n
     parameters, result, motion = contact_parameters(), layout.new_result(), np.zeros(8)
     rows = []
     for shift, z, roll in zip(y, geometry.z, geometry.roll, strict=True):
-        wheelset_forces(
-            table, shift, z - 8e-5, 0.0, np.cos(roll), np.sin(roll), 20.0, 0.0, 0.0, 0.0, 43.5,
-            0.0, motion, parameters, result,
-        )  # fmt: skip
-        rows.append([result[2], result[layout.COUNT_LEFT], result[layout.COUNT_RIGHT]])
+        axle = layout.Axle(shift, z - 8e-5, 0.0, np.cos(roll), np.sin(roll))
+        velocity = layout.Velocity(20.0, 0.0, 0.0, 0.0, 43.5, 0.0)
+        wheelset_forces(table, axle, velocity, motion, parameters, result)
+        record = result.view(layout.RESULT)[0]
+        rows.append([record["force"][2], *record["count"]])
     return np.array(rows)
 
 

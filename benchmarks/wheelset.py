@@ -33,7 +33,7 @@ from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
 
 
 @njit(cache=True)
-def empty(table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result):
+def empty(table, axle, velocity, rail_motion, parameters, result):
     pass
 
 
@@ -41,10 +41,9 @@ def empty(table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, paramete
 def repeated(count, table, y, z, lz, speed, rail_motion, parameters, result):
     """Evaluations from compiled code, without Python's call."""
     for _ in range(count):
-        wheelset_forces(
-            table, y, z, 0.0, 1.0, lz, speed, 0.0, 0.0, 0.0, speed / 0.46, 0.0,
-            rail_motion, parameters, result,
-        )  # fmt: skip
+        axle = layout.Axle(y, z, 0.0, 1.0, lz)
+        velocity = layout.Velocity(speed, 0.0, 0.0, 0.0, speed / 0.46, 0.0)
+        wheelset_forces(table, axle, velocity, rail_motion, parameters, result)
 
 
 def least_time(work: Callable[[], object], calls: int, repeats: int = 15) -> float:
@@ -66,10 +65,9 @@ def contact_evaluation() -> dict[str, float]:
     for name, shift in (("one_patch", 0.003), ("two_patches", 0.0)):
         pose = contact_geometry(wheelset, track, [shift])
         z, lz = float(pose.z[0]) - 6e-5, float(pose.roll[0])
-        arguments = (
-            table, shift, z, 0.0, 1.0, lz, 20.0, 0.0, 0.0, 0.0, 43.5, 0.0,
-            motion, parameters, result,
-        )  # fmt: skip
+        axle = layout.Axle(shift, z, 0.0, 1.0, lz)
+        velocity = layout.Velocity(20.0, 0.0, 0.0, 0.0, 43.5, 0.0)
+        arguments = (table, axle, velocity, motion, parameters, result)
 
         def from_python(function, arguments=arguments):
             for _ in range(1000):
@@ -86,8 +84,7 @@ def contact_evaluation() -> dict[str, float]:
             ),
             1000,
         )
-        patches = result[layout.COUNT_LEFT] + result[layout.COUNT_RIGHT]
-        numbers[f"{name}_patches"] = float(patches)
+        numbers[f"{name}_patches"] = float(result.view(layout.RESULT)[0]["count"].sum())
         numbers[f"{name}_us"] = 1e6 * inside
         numbers[f"{name}_called_from_python_us"] = 1e6 * call
         numbers["empty_call_us"] = 1e6 * bare

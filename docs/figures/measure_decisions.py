@@ -30,6 +30,7 @@ from exudyn_wheelset import (
     create_wheelset,
     linearise,
 )
+from exudyn_wheelset.contact.layout import SIDE, Axle
 from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
 
 REFERENCE = Path(__file__).parents[2] / "tests" / "reference" / "contact_forces_manchester_A22.csv"
@@ -166,8 +167,12 @@ def _per_call(function: Callable[..., object], arguments: tuple) -> float:
 
 def calls() -> None:
     """Calling an empty compiled function from Python, over its kinds of arguments."""
+    arrays = Axle(*(np.zeros(5) for _ in range(5)))  # type: ignore[arg-type]
     cases = [(f"{count} arrays", (np.zeros(5),) * count) for count in (1, 2, 4, 8, 12)]
     cases.append(("12 numbers", (0.1,) * 12))
+    cases.append(("a named tuple of 5 numbers", (Axle(0.1, 0.1, 0.1, 0.1, 0.1),)))
+    cases.append(("a named tuple of 5 arrays", (arrays,)))
+    cases.append(("a record", (np.zeros(1, SIDE)[0],)))
     base = 0.0
     for name, arguments in cases:
         names = ", ".join(f"a{k}" for k in range(len(arguments)))
@@ -175,7 +180,7 @@ def calls() -> None:
         exec(f"def empty({names}):\n    return 0.0", space)
         taken = _per_call(njit(space["empty"]), arguments)
         base = base or taken
-        print(f"{name:12s}{1e6 * taken:7.3f} us, {taken / base:5.1f} times one array")
+        print(f"{name:28s}{1e6 * taken:7.3f} us, {taken / base:5.1f} times one array")
 
 
 def spin() -> None:

@@ -1,17 +1,18 @@
 """Planar curves over arc length for the kernels: piecewise cubics on a uniform grid.
 
-A curve is a block of a flat float64 array: n segments of eight coefficients, y and z [m] as
-a0 + a1 u + a2 u^2 + a3 u^3 with u [m] from the segment's start. Beyond its ends a curve goes on
-straight, so that no pose gives anything but finite numbers.
+A curve (CURVE in layout.py) is a part of a flat float64 array: n segments of eight coefficients, y
+and z [m] as a0 + a1 u + a2 u^2 + a3 u^3 with u [m] from the segment's start. Beyond its ends a
+curve goes on straight, so that no pose gives anything but finite numbers.
 """
 
 from exudyn_wheelset.compilation import compiled
 
 
 @compiled(inline="always")
-def curve_point(data, offset, spacing, segments, arc):
+def curve_point(data, curve, arc):
     """Return (y, y', y'', z, z', z'') [m, -, 1/m] of the curve at arc length `arc` [m]."""
-    last = segments - 1
+    spacing = curve.spacing
+    last = curve.segments - 1
     index = int(arc / spacing)
     if index < 0:
         index = 0
@@ -25,7 +26,7 @@ def curve_point(data, offset, spacing, segments, arc):
     elif u > spacing:
         beyond = u - spacing
         u = spacing
-    base = offset + 8 * index
+    base = curve.offset + 8 * index
     b2 = data[base + 2]
     b3 = data[base + 3]
     c2 = data[base + 6]

@@ -1,59 +1,213 @@
-"""Places of numbers in the kernels' parameter and result arrays, and of a patch in its row."""
+"""Records of the contact kernels: what each holds, and how it lies in a flat array of numbers.
+
+From Python the kernels take two flat float64 arrays, the table of a wheelset on its track
+(tables.py) and the result, and view them as records inside (`side_of`, `array.view(RESULT)[0]`):
+one array is the cheapest thing to hand over (docs/decisions/kernels-with-records.md).
+
+    SIDE        one wheel and its rail: curves, nodes of the scan, grid of the first guess
+    PARAMETERS  what `contact_parameters` makes
+    CANDIDATE   a node of the scan where a lobe may be, before it is refined
+    LOBE        a maximum of the penetration: its place, its territory, moments of its zone
+    SHARE       what a patch's creep force needs besides PATCH while lobes merge
+    PATCH       the fields of `Patch`, in their order
+    RESULT      wrench, patches of either wheel, and WORK, the room that an evaluation needs
+
+Scalars that belong together travel between kernels as named tuples: Axle, Velocity, Material,
+Creepage, Ellipse, Zone. A kernel must not view an array that it has made itself: a record does not
+keep its array alive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
-from exudyn_wheelset.contact.search import LOBE_WIDTH, MOST_LOBES
-from exudyn_wheelset.contact.tables import MOST_NODES
 
-FRICTION, SHEAR_MODULUS, POISSON, DAMPING, LAW, NORMAL, RAIL_SPEED = 0, 1, 2, 3, 4, 5, 6
-LAW_PARAMETERS = 8
-PARAMETER_COUNT = 16
-
-(
-    PATCH_WHEEL_Y,
-    PATCH_RAIL_Y,
-    PATCH_ANGLE,
-    PATCH_RADIUS,
-    PATCH_NORMAL_FORCE,
-    PATCH_CREEP_X,
-    PATCH_CREEP_Y,
-    PATCH_SPIN,
-    PATCH_FX,
-    PATCH_FY,
-    PATCH_MZ,
-    PATCH_A,
-    PATCH_B,
-    PATCH_PENETRATION,
-    PATCH_X,
-    PATCH_Y,
-    PATCH_Z,
-    PATCH_NORMAL_Y,
-    PATCH_NORMAL_Z,
-    PATCH_ENERGY,
-    PATCH_SEPARATION,
-    PATCH_OWN_FORCE,
-    PATCH_OWN_A,
-    PATCH_OWN_B,
-    PATCH_SHARE,
-    PATCH_MERGED_FORCE,
-    PATCH_MERGED_A,
-    PATCH_MERGED_B,
-    PATCH_LOBE,
-    PATCH_PARTNER,
-) = range(30)
-PATCH_WIDTH = 30
-
-# Result array: wrench (6), numbers of patches left and right, then the patches of either side.
-COUNT_LEFT, COUNT_RIGHT, PATCHES = 6, 7, 8
-RESULT_SIZE = PATCHES + 2 * MOST_LOBES * PATCH_WIDTH
-HERTZ = NORMAL_MODELS["hertz"]
+MOST_LOBES = 3
+MOST_NODES = 320
 HERTZ_LOCAL = NORMAL_MODELS["hertz-local"]
 VIRTUAL_PENETRATION = NORMAL_MODELS["virtual-penetration"]
-DEPTHS = RESULT_SIZE + MOST_LOBES * LOBE_WIDTH
-FACTORS = DEPTHS + MOST_NODES
+
+
+@dataclass(frozen=True)
+class Patch:
+    """One contact patch; positions and angle count towards the field side of its own wheel.
+
+    wheel_y [m] from the tape circle, rail_y [m] from the rail's highest point, angle [rad],
+    radius [m] rolling radius, normal_force [N], creep_x, creep_y [-], spin [1/m], fx, fy [N] creep
+    force on the wheel along x and the lateral tangent (right-handed triad, y to the left on both
+    sides), mz [N m] about the normal, a, b [m] semi-axes along rolling and lateral, penetration
+    [m], position (3) [m] from the wheelset's centre and normal (3), track frame; energy [J]
+    elastic energy stored; peak_pressure [Pa].
+    """
+
+    wheel_y: float
+    rail_y: float
+    angle: float
+    radius: float
+    normal_force: float
+    creep_x: float
+    creep_y: float
+    spin: float
+    fx: float
+    fy: float
+    mz: float
+    a: float
+    b: float
+    penetration: float
+    position: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    energy: float
+    peak_pressure: float
+
+
+def _record(*columns: tuple[Any, ...]) -> np.dtype:
+    """Record of 8-byte fields; numpy.record, so that kernels run uncompiled as well."""
+    return np.dtype((np.record, list(columns)))
+
+
+def _numbers(*names: str) -> np.dtype:
+    return _record(*((name, "f8") for name in names))
+
+
+# Offsets are places in the table; a block is `count` columns of rows, one row after the other.
+CURVE = _record(("offset", "i8"), ("segments", "i8"), ("spacing", "f8"))
+BLOCK = _record(("offset", "i8"), ("count", "i8"))
+NODE_ARC, NODE_LATERAL, NODE_RADIUS, NODE_SLOPE, NODE_FLATNESS = range(5)
+GRID_HEIGHT, GRID_ARC = range(2)
+# tape [m]: tape circle from the axle's centre; radius [m] there; datum [m]: lateral position of
+# the rail's highest point; grid_start, grid_step [m]: lateral positions of the grid; rail_low,
+# rail_high [m]: lateral positions between which the rail carries.
+SIDE = _record(
+    ("radius", "f8"), ("tape", "f8"), ("datum", "f8"),
+    ("wheel", CURVE), ("rail", CURVE),
+    ("nodes", BLOCK), ("fine_nodes", BLOCK),
+    ("grid", BLOCK), ("grid_start", "f8"), ("grid_step", "f8"),
+    ("rail_low", "f8"), ("rail_high", "f8"),
+)  # fmt: skip
+HEADER = 2 * SIDE.itemsize // 8
+
+# law: number of the creep law, law_parameters: its own; normal: HERTZ and so on; rail_speed [m/s]:
+# at which the rails run backwards, in a model that stands in a moving frame.
+PARAMETERS = _record(
+    ("friction", "f8"), ("shear_modulus", "f8"), ("poisson", "f8"), ("damping", "f8"),
+    ("law", "f8"), ("normal", "f8"), ("rail_speed", "f8"), ("spare", "f8"),
+    ("law_parameters", "f8", (8,)),
+)  # fmt: skip
+
+# Depths [m] at the node, before and behind it; valley: node of the valley before it.
+CANDIDATE = _record(
+    ("node", "i8"), ("valley", "i8"), ("depth", "f8"), ("before", "f8"), ("after", "f8")
+)
+# Moments of a zone, as in the named tuple Zone.
+ZONE = _numbers("total", "arc", "foot", "normal_y", "normal_z")
+# arc: wheel arc length of the maximum, foot: rail arc length [m]; curvature: 2 B [1/m]; left,
+# right: ends of the territory in wheel arc; separation from the next lobe, 0 to 1; own: moments
+# of its zone, merged: as a part of a merged patch whose greatest penetration is merged_depth.
+LOBE = _record(
+    ("arc", "f8"), ("foot", "f8"), ("penetration", "f8"), ("curvature", "f8"),
+    ("left", "f8"), ("right", "f8"), ("separation", "f8"),
+    ("own", ZONE), ("merged", ZONE), ("merged_depth", "f8"),
+)  # fmt: skip
+ELLIPSE = _numbers("force", "a", "b")
+# A patch of separation s is s times `own` and (1 - s) share times `merged`, which it shares with
+# the patch of lobe `partner`; damping: the factor that damping puts on elastic normal forces.
+SHARE = _record(
+    ("lobe", "i8"), ("partner", "i8"), ("separation", "f8"), ("share", "f8"),
+    ("own", ELLIPSE), ("merged", ELLIPSE), ("damping", "f8"),
+)  # fmt: skip
+_SHAPES: dict[str, tuple[int, ...]] = {"float": (), "tuple[float, float, float]": (3,)}
+PATCH = _record(*((field.name, "f8", _SHAPES[str(field.type)]) for field in fields(Patch)))
+WORK = _record(
+    ("candidates", CANDIDATE, (MOST_LOBES,)), ("lobes", LOBE, (MOST_LOBES,)),
+    ("shares", SHARE, (MOST_LOBES,)), ("depths", "f8", (MOST_NODES,)),
+)  # fmt: skip
+RESULT = _record(
+    ("force", "f8", (3,)), ("moment", "f8", (3,)),
+    ("count", "i8", (2,)), ("patches", PATCH, (2, MOST_LOBES)), ("work", WORK),
+)  # fmt: skip
+PARAMETER_COUNT = PARAMETERS.itemsize // 8
+RESULT_SIZE = RESULT.itemsize // 8
+
+
+class Axle(NamedTuple):
+    """Centre (y, z) [m] and unit vector (lx, ly, lz) towards the left wheel, track frame.
+
+    For the right side mirrored, so that both sides are computed as the left one.
+    """
+
+    y: float
+    z: float
+    lx: float
+    ly: float
+    lz: float
+
+
+class Velocity(NamedTuple):
+    """Velocity of the wheelset's centre [m/s] and angular velocity [rad/s], track frame."""
+
+    x: float
+    y: float
+    z: float
+    about_x: float
+    about_y: float
+    about_z: float
+
+
+class Material(NamedTuple):
+    """Shear modulus [Pa] and Poisson number of wheel and rail."""
+
+    shear_modulus: float
+    poisson: float
+
+
+class Creepage(NamedTuple):
+    """Creepages [-] along x and the lateral tangent, and spin [1/m]."""
+
+    x: float
+    y: float
+    spin: float
+
+
+class Ellipse(NamedTuple):
+    """Normal force [N] on an elliptic patch, semi-axes a along rolling and b lateral [m]."""
+
+    force: float
+    a: float
+    b: float
+
+
+class Zone(NamedTuple):
+    """Integrals over a zone of the lobe, each weighted with penetration minus level.
+
+    total [m^2]; arc, foot: of wheel and rail arc length [m^3]; normal_y, normal_z: of the mean of
+    the wheel's and the rail's normal, from rail into wheel [m^2].
+    """
+
+    total: float
+    arc: float
+    foot: float
+    normal_y: float
+    normal_z: float
+
+
+@compiled(inline="always")
+def side_of(table, hand):
+    """Return the SIDE record of a wheelset's table: hand 0 is left, 1 right."""
+    return table[:HEADER].view(SIDE)[hand]
+
+
+@compiled(inline="always")
+def block_row(table, block, row):
+    """Return one row of a block of the table."""
+    start = block.offset + row * block.count
+    return table[start : start + block.count]
 
 
 def new_result() -> np.ndarray:
     """Array that the kernels write into; one for each wheelset."""
-    return np.zeros(FACTORS + MOST_LOBES)
+    return np.zeros(RESULT_SIZE)

@@ -12,22 +12,13 @@ and the point is P = C + w l + r e. Its x is the lead (or lag) of a flange conta
 normal (from wheel into rail) is (e - t l)/sqrt(1 + t^2), which lies in the y-z plane.
 
 Frame: track frame; both sides are computed as the left one (the right one is mirrored before).
+Records and the named tuple `axle`: layout.py.
 """
 
 import math
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
-from exudyn_wheelset.contact.tables import (
-    RADIUS,
-    RAIL,
-    RAIL_SEGMENTS,
-    RAIL_SPACING,
-    TAPE,
-    WHEEL,
-    WHEEL_SEGMENTS,
-    WHEEL_SPACING,
-)
 
 
 @compiled(inline="always")
@@ -49,31 +40,27 @@ def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
 
 
 @compiled(inline="always")
-def wheel_section(table, side, arc, cy, cz, lx, ly, lz):
+def wheel_section(table, side, arc, axle):
     """Contact-locus point at the wheel's arc length in the y-z plane: (y, z, ny, nz, curvature).
 
     curvature [1/m] of the profile, z up, negative where the wheel is concave (throat). The arc's
     tangent (y', z') is of unit length, so y' = 1/sqrt(1 + t^2).
     """
-    y, y1, y2, z, z1, z2 = curve_point(
-        table,
-        int(table[side + WHEEL]),
-        table[side + WHEEL_SPACING],
-        int(table[side + WHEEL_SEGMENTS]),
-        arc,
-    )
-    r = table[side + RADIUS] - z
+    y, y1, y2, z, z1, z2 = curve_point(table, side.wheel, arc)
+    r = side.radius - z
     t = -z1 / y1
-    square = lx * lx
+    ly = axle.ly
+    lz = axle.lz
+    square = axle.lx * axle.lx
     q = 1.0 / (1.0 - square)
     along = -square * t * q
     root = math.sqrt(max(1.0 - square - square * t * t, 1.0e-6)) * q
     ey = along * ly + root * lz
     ez = along * lz - root * ly
-    w = table[side + TAPE] + y
+    w = side.tape + y
     return (
-        cy + w * ly + r * ey,
-        cz + w * lz + r * ez,
+        axle.y + w * ly + r * ey,
+        axle.z + w * lz + r * ez,
         ey * y1 + z1 * ly,
         ez * y1 + z1 * lz,
         y1 * z2 - z1 * y2,
@@ -81,19 +68,19 @@ def wheel_section(table, side, arc, cy, cz, lx, ly, lz):
 
 
 @compiled
-def wheel_point(table, side, arc, cy, cz, lx, ly, lz):
+def wheel_point(table, side, arc, axle):
     """Contact-locus point with all about it: (x, y, z, ny, nz, radius, wheel_y, curvature).
 
     x is relative to the axle's centre; radius [m] is the rolling radius r sqrt(1 - (t lx)^2), the
     arm of the spin: the lead takes the rest of r out of the direction of travel.
     """
-    offset = int(table[side + WHEEL])
-    segments = int(table[side + WHEEL_SEGMENTS])
-    y, y1, y2, z, z1, z2 = curve_point(table, offset, table[side + WHEEL_SPACING], segments, arc)
-    radius = table[side + RADIUS] - z
+    y, y1, y2, z, z1, z2 = curve_point(table, side.wheel, arc)
+    radius = side.radius - z
     slope = -z1 / y1
-    x, py, pz, ny, nz = locus_point(table[side + TAPE] + y, radius, slope, 0.0, cy, cz, lx, ly, lz)
-    arm = radius * math.sqrt(max(1.0 - slope * slope * lx * lx, 0.0))
+    x, py, pz, ny, nz = locus_point(
+        side.tape + y, radius, slope, 0.0, axle.y, axle.z, axle.lx, axle.ly, axle.lz
+    )
+    arm = radius * math.sqrt(max(1.0 - slope * slope * axle.lx * axle.lx, 0.0))
     return x, py, pz, ny, nz, arm, y, y1 * z2 - z1 * y2
 
 
@@ -105,13 +92,7 @@ def rail_foot(table, side, py, pz, arc):
     the point above the rail, curvature [1/m] is negative on a convex head. The guess is corrected
     by a Taylor step along the curve, whose error is of third order in the guess's.
     """
-    y, y1, y2, z, z1, z2 = curve_point(
-        table,
-        int(table[side + RAIL]),
-        table[side + RAIL_SPACING],
-        int(table[side + RAIL_SEGMENTS]),
-        arc,
-    )
+    y, y1, y2, z, z1, z2 = curve_point(table, side.rail, arc)
     curvature = y1 * z2 - z1 * y2
     height = (pz - z) * y1 - (py - y) * z1
     along = (py - y) * y1 + (pz - z) * z1

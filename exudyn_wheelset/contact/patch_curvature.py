@@ -9,49 +9,42 @@ jumps at every junction of arcs; this one is smooth over the shift.
 import numpy as np
 
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.contact.search import (
-    LOBE_ARC,
-    LOBE_CURVATURE,
-    LOBE_FOOT,
-    LOBE_LEFT,
-    LOBE_PENETRATION,
-    LOBE_RIGHT,
-    LOBE_WIDTH,
-    MOST_LOBES,
-    VIRTUAL,
-    find_lobes,
-    zone_moments,
-)
-from exudyn_wheelset.contact.tables import HEADER, MOST_NODES, RADIUS
+from exudyn_wheelset.contact.layout import RESULT, Axle, new_result, side_of
+from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
 
 
-@compiled
-def patch_half_curvatures(table, y, roll, z, approach):
+def patch_half_curvatures(
+    table: np.ndarray, y: np.ndarray, roll: np.ndarray, z: np.ndarray, approach: float
+) -> np.ndarray:
     """Return B (n, 2) [1/m] of the deepest patch, left and right, for rigid poses at yaw zero.
 
     y [m], roll [rad], z [m]: (n) rigid positions; approach [m] > 0 in the direction of z.
     """
-    curvatures = np.empty((len(y), 2))
-    lobes = np.zeros((MOST_LOBES, LOBE_WIDTH))
-    depths = np.zeros(MOST_NODES)
+    curvatures = np.full((len(y), 2), np.nan)
+    _fill_half_curvatures(table, y, roll, z, approach, new_result(), curvatures)
+    return curvatures
+
+
+@compiled
+def _fill_half_curvatures(table, y, roll, z, approach, result, curvatures):
+    work = result.view(RESULT)[0].work
+    radius = side_of(table, 0).radius
     for k in range(len(y)):
-        ly, lz = np.cos(roll[k]), np.sin(roll[k])
         for hand in range(2):
             mirror = 1.0 - 2.0 * hand
-            side = hand * HEADER
-            cy = mirror * y[k]
-            cz = table[RADIUS] + z[k] - approach
-            found = find_lobes(table, side, cy, cz, 0.0, ly, mirror * lz, lobes, depths)
+            side = side_of(table, hand)
+            axle = Axle(
+                mirror * y[k], radius + z[k] - approach, 0.0, np.cos(roll[k]),
+                mirror * np.sin(roll[k]),
+            )  # fmt: skip
+            found = find_lobes(table, side, axle, work)
+            if found == 0:
+                continue
             deepest = 0
             for j in range(1, found):
-                if lobes[j, LOBE_PENETRATION] > lobes[deepest, LOBE_PENETRATION]:
+                if work.lobes[j].penetration > work.lobes[deepest].penetration:
                     deepest = j
-            lobe = lobes[deepest]
-            depth = lobe[LOBE_PENETRATION]
-            extent = VIRTUAL * depth
-            zone = zone_moments(
-                table, side, lobe[LOBE_ARC], lobe[LOBE_FOOT], depth, lobe[LOBE_CURVATURE],
-                lobe[LOBE_LEFT], lobe[LOBE_RIGHT], depth - extent, cy, cz, 0.0, ly, mirror * lz,
-            )[0]  # fmt: skip
-            curvatures[k, hand] = 16.0 / 9.0 * extent**3 / zone**2 if found > 0 else np.nan
-    return curvatures
+            lobe = work.lobes[deepest]
+            extent = VIRTUAL * lobe.penetration
+            zone = zone_moments(table, side, lobe, lobe.penetration - extent, axle)
+            curvatures[k, hand] = 16.0 / 9.0 * extent**3 / zone.total**2

@@ -12,7 +12,7 @@ ellipse and position are blended alike (a share of a merged patch stands at that
 has its share of that patch's creep force). So a lobe enters and leaves without a step in force.
 Two lobes that have merged wholly (s = 0) are one patch.
 
-Frame: track frame, left side.
+Frame: track frame, left side. Records LOBE, SHARE, PATCH and the named tuples: layout.py.
 """
 
 import math
@@ -22,101 +22,55 @@ from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
     HERTZ_LOCAL,
-    NORMAL,
-    PATCH_A,
-    PATCH_ANGLE,
-    PATCH_B,
-    PATCH_ENERGY,
-    PATCH_LOBE,
-    PATCH_MERGED_A,
-    PATCH_MERGED_B,
-    PATCH_MERGED_FORCE,
-    PATCH_NORMAL_FORCE,
-    PATCH_NORMAL_Y,
-    PATCH_NORMAL_Z,
-    PATCH_OWN_A,
-    PATCH_OWN_B,
-    PATCH_OWN_FORCE,
-    PATCH_PARTNER,
-    PATCH_PENETRATION,
-    PATCH_RADIUS,
-    PATCH_RAIL_Y,
-    PATCH_SEPARATION,
-    PATCH_SHARE,
-    PATCH_WHEEL_Y,
-    PATCH_WIDTH,
-    PATCH_X,
-    PATCH_Y,
-    PATCH_Z,
-    POISSON,
-    SHEAR_MODULUS,
     VIRTUAL_PENETRATION,
+    Ellipse,
+    Material,
+    Zone,
+    side_of,
 )
 from exudyn_wheelset.contact.locus import wheel_point
-from exudyn_wheelset.contact.search import (
-    LOBE_ARC,
-    LOBE_CURVATURE,
-    LOBE_FOOT,
-    LOBE_LEFT,
-    LOBE_PENETRATION,
-    LOBE_RIGHT,
-    LOBE_SEPARATION,
-    MERGED,
-    MERGED_DEPTH,
-    OWN,
-    VIRTUAL,
-    find_lobes,
-    zone_moments,
-)
-from exudyn_wheelset.contact.tables import DATUM, RAIL, RAIL_SEGMENTS, RAIL_SPACING
+from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
 from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_force, zone_integrals
 
 
-@compiled
-def _ellipse(zone, lobe_depth, radius, nz, parameters):
-    """Hertz ellipse of a zone's integral: (normal_force, a, b)."""
-    extent = VIRTUAL * lobe_depth
-    lateral = (16.0 / 9.0) * extent * extent * extent / (zone * zone)
-    along = 0.5 * nz / radius
-    return hertz_from_approach(
-        along, lateral, lobe_depth, parameters[SHEAR_MODULUS], parameters[POISSON]
-    )
-
-
-@compiled
-def _virtual_ellipse(first, second, zone, depth, radius, nz, parameters):
-    """Force by virtual penetration and Hertz's ellipse under that force: (normal_force, a, b)."""
-    modulus, poisson = parameters[SHEAR_MODULUS], parameters[POISSON]
-    force = virtual_penetration_force(first, second, depth, modulus, poisson)
+@compiled(inline="always")
+def _mean_half_curvature(total, depth):
+    """B [1/m] of the parabola with the same integral over its zone."""
     extent = VIRTUAL * depth
-    lateral = (16.0 / 9.0) * extent * extent * extent / (zone * zone)
-    a, b, _, _ = hertz_from_load(0.5 * nz / radius, lateral, force, modulus, poisson)
-    return force, a, b
+    return (16.0 / 9.0) * extent * extent * extent / (total * total)
 
 
 @compiled
-def _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes):
-    """Integrals of virtual penetration over lobe k's zone above (1 - VIRTUAL) deepest."""
-    depth = lobes[k, LOBE_PENETRATION]
-    level = (1.0 - VIRTUAL) * deepest
-    if depth <= level:
-        return 0.0, 0.0
-    return zone_integrals(
-        table, side, lobes[k, LOBE_ARC], lobes[k, LOBE_FOOT], depth, lobes[k, LOBE_CURVATURE],
-        lobes[k, LOBE_LEFT], lobes[k, LOBE_RIGHT], level, origin, along, cy, cz, lx, ly, lz,
-    )  # fmt: skip
-
-
-@compiled
-def _merged_integrals(
-    table, side, k, other, deepest, centre, along, cy, cz, lx, ly, lz, lobes
-):  # fmt: skip
-    """Integrals over the zones of two merging lobes, with the displacement at lobe `centre`."""
-    origin = lobes[centre, LOBE_ARC]
-    first, second = _integrals(table, side, k, deepest, origin, along, cy, cz, lx, ly, lz, lobes)
-    more, further = _integrals(
-        table, side, other, deepest, origin, along, cy, cz, lx, ly, lz, lobes
+def _hertz_ellipse(along, lateral, depth, material):
+    """Ellipse by Hertz of half curvatures along and lateral [1/m] and the approach [m]."""
+    force, a, b = hertz_from_approach(
+        along, lateral, depth, material.shear_modulus, material.poisson
     )
+    return Ellipse(force, a, b)
+
+
+@compiled
+def _virtual_ellipse(first, second, lateral, depth, along, material):
+    """Force by virtual penetration and Hertz's ellipse under that force."""
+    force = virtual_penetration_force(first, second, depth, material)
+    a, b, _, _ = hertz_from_load(along, lateral, force, material.shear_modulus, material.poisson)
+    return Ellipse(force, a, b)
+
+
+@compiled
+def _integrals(table, side, lobe, deepest, origin, along, axle):
+    """Integrals of virtual penetration over the lobe's zone above (1 - VIRTUAL) deepest."""
+    level = (1.0 - VIRTUAL) * deepest
+    if lobe.penetration <= level:
+        return 0.0, 0.0
+    return zone_integrals(table, side, lobe, level, origin, along, axle)
+
+
+@compiled
+def _merged_integrals(table, side, lobe, other, deepest, origin, along, axle):
+    """Integrals over the zones of two merging lobes, with the displacement at `origin`."""
+    first, second = _integrals(table, side, lobe, deepest, origin, along, axle)
+    more, further = _integrals(table, side, other, deepest, origin, along, axle)
     return first + more, second + further
 
 
@@ -127,165 +81,175 @@ def _unit(y, z):
 
 
 @compiled
-def _lobe_moments(table, side, k, deepest, slot, cy, cz, lx, ly, lz, lobes):
-    """Moments of lobe k over the zone above (1 - VIRTUAL) deepest, kept in its row at `slot`."""
-    depth = lobes[k, LOBE_PENETRATION]
+def _zone_moments(table, side, lobe, deepest, axle):
+    """Moments of the lobe's zone above (1 - VIRTUAL) deepest; zeros if it does not reach there."""
     level = (1.0 - VIRTUAL) * deepest
-    lobes[k, slot : slot + 5] = 0.0
-    if depth > level:
-        zone, arc, foot, ny, nz = zone_moments(
-            table, side, lobes[k, LOBE_ARC], lobes[k, LOBE_FOOT], depth,
-            lobes[k, LOBE_CURVATURE], lobes[k, LOBE_LEFT], lobes[k, LOBE_RIGHT],
-            level, cy, cz, lx, ly, lz,
-        )  # fmt: skip
-        lobes[k, slot] = zone
-        lobes[k, slot + 1] = arc
-        lobes[k, slot + 2] = foot
-        lobes[k, slot + 3] = ny
-        lobes[k, slot + 4] = nz
-    if slot == MERGED:
-        lobes[k, MERGED_DEPTH] = deepest
-    elif deepest > depth:
-        lobes[k, MERGED_DEPTH] = deepest
-        lobes[k, MERGED : MERGED + 5] = lobes[k, OWN : OWN + 5]
+    if lobe.penetration <= level:
+        return Zone(0.0, 0.0, 0.0, 0.0, 0.0)
+    return zone_moments(table, side, lobe, level, axle)
+
+
+@compiled(inline="always")
+def _keep(record, zone):
+    record.total = zone.total
+    record.arc = zone.arc
+    record.foot = zone.foot
+    record.normal_y = zone.normal_y
+    record.normal_z = zone.normal_z
 
 
 @compiled
-def _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes):
-    """Column where lobe k's moments below the depth of its merged patch stand."""
-    if lobes[k, LOBE_PENETRATION] == deepest:
-        return OWN
-    if lobes[k, MERGED_DEPTH] != deepest:
-        _lobe_moments(table, side, k, deepest, MERGED, cy, cz, lx, ly, lz, lobes)
-    return MERGED
+def _part_of_merged(table, side, lobe, deepest, axle):
+    """Record of the lobe's moments as a part of a merged patch as deep as `deepest`."""
+    if lobe.penetration == deepest:
+        return lobe.own
+    if lobe.merged_depth != deepest:
+        _keep(lobe.merged, _zone_moments(table, side, lobe, deepest, axle))
+        lobe.merged_depth = deepest
+    return lobe.merged
 
 
 @compiled
-def side_patches(table, side, cy, cz, lx, ly, lz, parameters, result, out, lobes, depths):
-    """Normal contact of one side: fills patch rows with geometry and elastic force; their count."""
-    count = find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths)
+def _fill_own_zones(table, side, lobes, count, axle):
+    """Fill `own` of each lobe.
+
+    A lobe that has wholly merged into a deeper one needs no zone of its own: its part of the
+    merged one takes the place.
+    """
     for k in range(count):
-        deepest = lobes[k, LOBE_PENETRATION]
-        # A lobe that has wholly merged into a deeper one needs no zone of its own.
-        if k > 0 and lobes[k - 1, LOBE_SEPARATION] == 0.0:
-            deepest = max(deepest, lobes[k - 1, LOBE_PENETRATION])
-        elif k + 1 < count and lobes[k, LOBE_SEPARATION] == 0.0:
-            deepest = max(deepest, lobes[k + 1, LOBE_PENETRATION])
-        _lobe_moments(table, side, k, deepest, OWN, cy, cz, lx, ly, lz, lobes)
-    merging = parameters[NORMAL] != HERTZ_LOCAL
-    one_patch = merging and count == 2 and lobes[0, LOBE_SEPARATION] == 0.0
+        lobe = lobes[k]
+        deepest = lobe.penetration
+        if k > 0 and lobes[k - 1].separation == 0.0:
+            deepest = max(deepest, lobes[k - 1].penetration)
+        elif k + 1 < count and lobe.separation == 0.0:
+            deepest = max(deepest, lobes[k + 1].penetration)
+        zone = _zone_moments(table, side, lobe, deepest, axle)
+        _keep(lobe.own, zone)
+        if deepest > lobe.penetration:
+            _keep(lobe.merged, zone)
+            lobe.merged_depth = deepest
+
+
+@compiled(inline="always")
+def _less_separated_neighbour(lobes, k):
+    """Separation of lobe k from the neighbour that is less separated from it, and which it is."""
+    separation = lobes[k].separation
+    other = k + 1
+    if k > 0 and lobes[k - 1].separation < separation:
+        separation = lobes[k - 1].separation
+        other = k - 1
+    return separation, other
+
+
+@compiled(inline="always")
+def _set_ellipse(record, ellipse):
+    record.force = ellipse.force
+    record.a = ellipse.a
+    record.b = ellipse.b
+
+
+@compiled
+def side_patches(table, hand, axle, parameters, work, patches):
+    """Normal contact of one side: fills patches with geometry and elastic force; their count."""
+    side = side_of(table, hand)
+    lobes = work.lobes
+    material = Material(parameters.shear_modulus, parameters.poisson)
+    count = find_lobes(table, side, axle, work)
+    _fill_own_zones(table, side, lobes, count, axle)
+    virtual = parameters.normal == VIRTUAL_PENETRATION
+    local = parameters.normal == HERTZ_LOCAL
+    one_patch = not local and count == 2 and lobes[0].separation == 0.0
     kept = 0
     for k in range(count):
-        zone = lobes[k, OWN]
+        lobe = lobes[k]
+        zone = lobe.own
         if one_patch:
-            if lobes[k, LOBE_PENETRATION] < lobes[1 - k, LOBE_PENETRATION] or kept > 0:
+            if lobe.penetration < lobes[1 - k].penetration or kept > 0:
                 continue
-        elif zone <= 0.0:
+        elif zone.total <= 0.0:
             continue
-        depth = lobes[k, LOBE_PENETRATION]
-        place = lobes[k, OWN + 1] / zone
-        at = lobes[k, OWN + 2] / zone
-        ny, nz = _unit(lobes[k, OWN + 3], lobes[k, OWN + 4])
-        _, _, _, _, _, radius, _, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
-        if parameters[NORMAL] == HERTZ_LOCAL:
-            place = lobes[k, LOBE_ARC]
-            at = lobes[k, LOBE_FOOT]
-            force, a, b = hertz_from_approach(
-                0.5 * nz / radius, 0.5 * max(lobes[k, LOBE_CURVATURE], 1.0e-3), depth,
-                parameters[SHEAR_MODULUS], parameters[POISSON],
-            )  # fmt: skip
+        depth = lobe.penetration
+        place = zone.arc / zone.total
+        at = zone.foot / zone.total
+        ny, nz = _unit(zone.normal_y, zone.normal_z)
+        _, _, _, _, _, radius, _, _ = wheel_point(table, side, place, axle)
+        along = 0.5 * nz / radius
+        lateral = _mean_half_curvature(zone.total, depth)
+        if local:
+            place = lobe.arc
+            at = lobe.foot
+            ellipse = _hertz_ellipse(along, 0.5 * max(lobe.curvature, 1.0e-3), depth, material)
+        elif virtual:
+            first, second = _integrals(table, side, lobe, depth, lobe.arc, along, axle)
+            ellipse = _virtual_ellipse(first, second, lateral, depth, along, material)
         else:
-            force, a, b = _ellipse(zone, depth, radius, nz, parameters)
-        virtual = parameters[NORMAL] == VIRTUAL_PENETRATION
-        if virtual:
-            first, second = _integrals(
-                table, side, k, depth, lobes[k, LOBE_ARC], 0.5 * nz / radius,
-                cy, cz, lx, ly, lz, lobes,
-            )  # fmt: skip
-            force, a, b = _virtual_ellipse(first, second, zone, depth, radius, nz, parameters)
-        # Merge with the neighbour that is less separated.
-        row = out + kept * PATCH_WIDTH
-        result[row + PATCH_OWN_FORCE] = force
-        result[row + PATCH_OWN_A] = a
-        result[row + PATCH_OWN_B] = b
-        separation = lobes[k, LOBE_SEPARATION]
-        other = k + 1
-        if k > 0 and lobes[k - 1, LOBE_SEPARATION] < separation:
-            separation = lobes[k - 1, LOBE_SEPARATION]
-            other = k - 1
-        if separation < 1.0 and merging:
-            deepest = max(depth, lobes[other, LOBE_PENETRATION])
-            mine = _moments_at(table, side, k, deepest, cy, cz, lx, ly, lz, lobes)
-            theirs = _moments_at(table, side, other, deepest, cy, cz, lx, ly, lz, lobes)
-            own = lobes[k, mine]
-            whole = own + lobes[other, theirs]
-            share = own / whole
-            merged_place = (lobes[k, mine + 1] + lobes[other, theirs + 1]) / whole
-            merged_at = (lobes[k, mine + 2] + lobes[other, theirs + 2]) / whole
-            my, mz = _unit(
-                lobes[k, mine + 3] + lobes[other, theirs + 3],
-                lobes[k, mine + 4] + lobes[other, theirs + 4],
-            )
-            _, _, _, _, _, merged_radius, _, _ = wheel_point(
-                table, side, merged_place, cy, cz, lx, ly, lz
-            )
-            merged_force, merged_a, merged_b = _ellipse(
-                whole, deepest, merged_radius, mz, parameters
-            )
+            ellipse = _hertz_ellipse(along, lateral, depth, material)
+        force, a, b = ellipse
+        share = work.shares[kept]
+        _set_ellipse(share.own, ellipse)
+        separation, partner = _less_separated_neighbour(lobes, k)
+        if separation < 1.0 and not local:
+            other = lobes[partner]
+            deepest = max(depth, other.penetration)
+            mine = _part_of_merged(table, side, lobe, deepest, axle)
+            theirs = _part_of_merged(table, side, other, deepest, axle)
+            whole = mine.total + theirs.total
+            part = mine.total / whole
+            merged_place = (mine.arc + theirs.arc) / whole
+            merged_at = (mine.foot + theirs.foot) / whole
+            my, mz = _unit(mine.normal_y + theirs.normal_y, mine.normal_z + theirs.normal_z)
+            _, _, _, _, _, merged_radius, _, _ = wheel_point(table, side, merged_place, axle)
+            along = 0.5 * mz / merged_radius
+            lateral = _mean_half_curvature(whole, deepest)
             if virtual:
-                along = 0.5 * mz / merged_radius
                 # The displacement is taken at either lobe's deepest point: at one of them only, a
                 # step would follow when the other becomes the deeper.
                 first, second = _merged_integrals(
-                    table, side, k, other, deepest, k, along, cy, cz, lx, ly, lz, lobes
+                    table, side, lobe, other, deepest, lobe.arc, along, axle
                 )
                 _, further = _merged_integrals(
-                    table, side, k, other, deepest, other, along, cy, cz, lx, ly, lz, lobes
+                    table, side, lobe, other, deepest, other.arc, along, axle
                 )
-                second = 1.0 / (share / second + (1.0 - share) / further)
-                merged_force, merged_a, merged_b = _virtual_ellipse(
-                    first, second, whole, deepest, merged_radius, mz, parameters
-                )
+                second = 1.0 / (part / second + (1.0 - part) / further)
+                merged = _virtual_ellipse(first, second, lateral, deepest, along, material)
+            else:
+                merged = _hertz_ellipse(along, lateral, deepest, material)
             if one_patch:
-                share = 1.0
-            rest = (1.0 - separation) * share
+                part = 1.0
+            rest = (1.0 - separation) * part
             # A share stands where the whole patch does, with the weight of the force it brings.
-            weight = rest * merged_force / max(separation * force + rest * merged_force, 1.0e-30)
+            weight = rest * merged.force / max(separation * force + rest * merged.force, 1.0e-30)
             place += weight * (merged_place - place)
             at += weight * (merged_at - at)
             ny, nz = _unit(ny + weight * (my - ny), nz + weight * (mz - nz))
-            result[row + PATCH_SHARE] = share
-            result[row + PATCH_MERGED_FORCE] = merged_force
-            result[row + PATCH_MERGED_A] = merged_a
-            result[row + PATCH_MERGED_B] = merged_b
-            force = separation * force + rest * merged_force
-            a = separation * a + (1.0 - separation) * merged_a
-            b = separation * b + rest * merged_b
+            share.share = part
+            _set_ellipse(share.merged, merged)
+            force = separation * force + rest * merged.force
+            a = separation * a + (1.0 - separation) * merged.a
+            b = separation * b + rest * merged.b
         else:
             separation = 1.0
-        result[row + PATCH_SEPARATION] = separation
-        result[row + PATCH_LOBE] = k
-        result[row + PATCH_PARTNER] = other
         if force <= 0.0 or b <= 0.0:
             continue
-        px, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, place, cy, cz, lx, ly, lz)
-        rail_y, _, _, _, _, _ = curve_point(
-            table, int(table[side + RAIL]), table[side + RAIL_SPACING],
-            int(table[side + RAIL_SEGMENTS]), at,
-        )  # fmt: skip
-        result[row + PATCH_WHEEL_Y] = wheel_y
-        result[row + PATCH_RAIL_Y] = rail_y - table[side + DATUM]
-        result[row + PATCH_ANGLE] = math.atan2(-ny, nz)
-        result[row + PATCH_RADIUS] = radius
-        result[row + PATCH_NORMAL_FORCE] = force
-        result[row + PATCH_A] = a
-        result[row + PATCH_B] = b
-        result[row + PATCH_PENETRATION] = depth
-        result[row + PATCH_X] = px
-        result[row + PATCH_Y] = py - cy
-        result[row + PATCH_Z] = pz - cz
-        result[row + PATCH_NORMAL_Y] = ny
-        result[row + PATCH_NORMAL_Z] = nz
-        result[row + PATCH_ENERGY] = 0.4 * force * depth
+        share.separation = separation
+        share.lobe = k
+        share.partner = partner
+        px, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, place, axle)
+        rail_y, _, _, _, _, _ = curve_point(table, side.rail, at)
+        patch = patches[kept]
+        patch.wheel_y = wheel_y
+        patch.rail_y = rail_y - side.datum
+        patch.angle = math.atan2(-ny, nz)
+        patch.radius = radius
+        patch.normal_force = force
+        patch.a = a
+        patch.b = b
+        patch.penetration = depth
+        patch.position[0] = px
+        patch.position[1] = py - axle.y
+        patch.position[2] = pz - axle.z
+        patch.normal[1] = ny
+        patch.normal[2] = nz
+        patch.energy = 0.4 * force * depth
         kept += 1
     return kept

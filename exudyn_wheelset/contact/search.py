@@ -15,37 +15,32 @@ VIRTUAL = 0.55 is the value of Kik and Piotrowski (1996); the mean curvature so 
 full half-space solutions on S1002/UIC60 to about 1 % in force (tests/test_contact_against_CONTACT).
 
 Two neighbouring lobes merge smoothly: `separation` runs from 0 (no valley) to 1 (the valley leaves
-the virtual penetration), see forces.py.
+the virtual penetration), see patches.py.
 
-Frame: track frame, left side; lengths in metres.
+Frame: track frame, left side; lengths in metres. Records LOBE, CANDIDATE, WORK and the named tuple
+`axle`: layout.py.
 """
 
 import math
 
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.contact.locus import rail_foot, wheel_section
-from exudyn_wheelset.contact.tables import (
-    GRID,
-    GRID_COUNT,
-    GRID_START,
-    GRID_STEP,
-    NODE_COUNT,
-    NODES,
-    RAIL_HIGH,
-    RAIL_LOW,
-    WHEEL_SEGMENTS,
-    WHEEL_SPACING,
+from exudyn_wheelset.contact.layout import (
+    GRID_ARC,
+    GRID_HEIGHT,
+    MOST_LOBES,
+    NODE_ARC,
+    NODE_FLATNESS,
+    NODE_LATERAL,
+    NODE_RADIUS,
+    NODE_SLOPE,
+    Zone,
+    block_row,
 )
+from exudyn_wheelset.contact.locus import rail_foot, wheel_section
 
 VIRTUAL = 0.55
-MOST_LOBES = 3
 SCAN_MARGIN = 1.5e-4
 MERGED_PROMINENCE = 0.1
-LOBE_WIDTH = 20
-LOBE_ARC, LOBE_FOOT, LOBE_PENETRATION, LOBE_LEFT, LOBE_RIGHT, LOBE_SEPARATION = 0, 1, 2, 3, 4, 5
-LOBE_CURVATURE = 6
-# Columns for the moments of a lobe's zone, its own and as a part of a merged patch (forces.py).
-OWN, MERGED, MERGED_DEPTH = 8, 13, 18
 
 GAUSS = (
     (0.046910077030668018, 0.11846344252809464),
@@ -57,40 +52,40 @@ GAUSS = (
 
 
 @compiled(inline="always")
-def probe(table, side, arc, foot, cy, cz, lx, ly, lz):
+def probe(table, side, arc, foot, axle):
     """Penetration at the wheel's arc length: (penetration, sine, 2 B, foot).
 
     sine: of the angle from the rail's tangent to the wheel's, the slope of -penetration along the
     wheel; 2 B [1/m]: relative curvature, its derivative.
     """
-    py, pz, ny, nz, wheel_curvature = wheel_section(table, side, arc, cy, cz, lx, ly, lz)
+    py, pz, ny, nz, wheel_curvature = wheel_section(table, side, arc, axle)
     foot, ty, tz, rail_curvature, height = rail_foot(table, side, py, pz, foot)
     return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
 
 
 @compiled
-def grid_foot(table, side, arc, cy, cz, lx, ly, lz):
+def grid_foot(table, side, arc, axle):
     """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
-    py, _, _, _, _ = wheel_section(table, side, arc, cy, cz, lx, ly, lz)
-    py = min(max(py, table[side + RAIL_LOW]), table[side + RAIL_HIGH])
-    place = (py - table[side + GRID_START]) / table[side + GRID_STEP]
+    py, _, _, _, _ = wheel_section(table, side, arc, axle)
+    py = min(max(py, side.rail_low), side.rail_high)
+    place = (py - side.grid_start) / side.grid_step
     cell = int(place)
-    base = int(table[side + GRID] + table[side + GRID_COUNT]) + cell
-    return table[base] + (place - cell) * (table[base + 1] - table[base])
+    arcs = block_row(table, side.grid, GRID_ARC)
+    return arcs[cell] + (place - cell) * (arcs[cell + 1] - arcs[cell])
 
 
 @compiled
-def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
+def level_tangent(table, side, low, high, start, sign, axle):
     """Wheel arc length in [low, high] where the tangents agree: a lobe (sign 1) or valley (-1).
 
     start: first guess. Returns (arc, foot, penetration, 2 B).
     """
     arc = start
-    foot = grid_foot(table, side, arc, cy, cz, lx, ly, lz)
+    foot = grid_foot(table, side, arc, axle)
     penetration = 0.0
     bend = 1.0
     for _ in range(40):
-        penetration, sine, bend, new_foot = probe(table, side, arc, foot, cy, cz, lx, ly, lz)
+        penetration, sine, bend, new_foot = probe(table, side, arc, foot, axle)
         slope = sign * sine
         if slope > 0.0:
             high = arc
@@ -112,14 +107,14 @@ def level_tangent(table, side, low, high, start, sign, cy, cz, lx, ly, lz):
 
 @compiled(fastmath=True)
 def _scan(
-    lateral, radii, slopes, flatness, heights, depths,
-    cy, cz, lx, ly, lz, low, high, start, per_step,
+    lateral, radii, slopes, flatness, heights, depths, axle, low, high, start, per_step
 ):  # fmt: skip
     """Fill depths with the penetration of each node below the rail, -1 beside the rail.
 
     Without branches and with slices, so that the compiler may keep the loop tight. Of the root in
     locus.py it takes two terms: exact enough to choose a node.
     """
+    cy, cz, lx, ly, lz = axle
     square = lx * lx
     q = 1.0 / (1.0 - square)
     most = len(heights) - 2
@@ -140,51 +135,52 @@ def _scan(
 
 
 @compiled
-def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
-    """Fill `lobes` (MOST_LOBES, LOBE_WIDTH) for one side; return their number.
+def _range_over_rail(table, side, axle):
+    """First node over the rail and the one behind the last, by halving.
 
-    Per lobe: wheel arc of the maximum, rail foot, penetration, territory [left, right] in wheel
-    arc, separation from the next lobe, 2 B. Lobes beyond MOST_LOBES (the least deep) are dropped.
-    depths (MOST_NODES): room for the scan.
+    The wheel's lateral position grows with the node.
     """
-    nodes = int(table[side + NODES])
-    count = int(table[side + NODE_COUNT])
-    grid = int(table[side + GRID])
-    start = table[side + GRID_START]
-    per_step = 1.0 / table[side + GRID_STEP]
-    low = table[side + RAIL_LOW]
-    high = table[side + RAIL_HIGH]
-    # The wheel's lateral position grows with the node: halve the range to where the rail begins.
+    lateral = block_row(table, side.nodes, NODE_LATERAL)
+    radii = block_row(table, side.nodes, NODE_RADIUS)
     first = 0
-    final = count
-    reach = low - cy - 0.003
+    final = side.nodes.count
+    reach = side.rail_low - axle.y - 0.003
     while final - first > 8:
         middle = (first + final) // 2
-        if table[nodes + count + middle] * ly + table[nodes + 2 * count + middle] * lz < reach:
+        if lateral[middle] * axle.ly + radii[middle] * axle.lz < reach:
             first = middle
         else:
             final = middle
-    final = count
-    reach = high - cy + 0.003
+    final = side.nodes.count
+    reach = side.rail_high - axle.y + 0.003
     low_end = first
     while final - low_end > 8:
         middle = (low_end + final) // 2
-        if table[nodes + count + middle] * ly + table[nodes + 2 * count + middle] * lz > reach:
+        if lateral[middle] * axle.ly + radii[middle] * axle.lz > reach:
             final = middle
         else:
             low_end = middle
-    at = nodes + first
+    return first, final
+
+
+@compiled
+def find_lobes(table, side, axle, work):
+    """Fill `work.lobes` for one side; return their number.
+
+    Lobes beyond MOST_LOBES (the least deep) are dropped.
+    """
+    first, final = _range_over_rail(table, side, axle)
     size = final - first
-    cells = int(table[side + GRID_COUNT])
-    depths = depths[:size]
+    depths = work.depths[:size]
     _scan(
-        table[at + count : at + count + size],
-        table[at + 2 * count : at + 2 * count + size],
-        table[at + 3 * count : at + 3 * count + size],
-        table[at + 4 * count : at + 4 * count + size],
-        table[grid : grid + cells],
-        depths, cy, cz, lx, ly, lz, low, high, start, per_step,
+        block_row(table, side.nodes, NODE_LATERAL)[first:final],
+        block_row(table, side.nodes, NODE_RADIUS)[first:final],
+        block_row(table, side.nodes, NODE_SLOPE)[first:final],
+        block_row(table, side.nodes, NODE_FLATNESS)[first:final],
+        block_row(table, side.grid, GRID_HEIGHT),
+        depths, axle, side.rail_low, side.rail_high, side.grid_start, 1.0 / side.grid_step,
     )  # fmt: skip
+    candidates = work.candidates
     found = 0
     before = -1.0
     last = -1.0
@@ -194,7 +190,7 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
         depth = depths[k]
         node = first + k
         if last > -SCAN_MARGIN and last >= before and last > depth and k > 0:
-            found = _note_lobe(lobes, found, node - 1, before, last, depth, valley_node)
+            found = _note_candidate(candidates, found, node - 1, before, last, depth, valley_node)
             valley = last
             valley_node = node - 1
         if depth < valley and found > 0:
@@ -203,106 +199,103 @@ def find_lobes(table, side, cy, cz, lx, ly, lz, lobes, depths):
         before = last
         last = depth
     if last > -SCAN_MARGIN and last >= before:
-        found = _note_lobe(lobes, found, final - 1, before, last, last, valley_node)
+        found = _note_candidate(candidates, found, final - 1, before, last, last, valley_node)
     if found == 0:
         return 0
-    return _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first, final - 1)
+    return _refine_lobes(table, side, axle, work, found, first, final - 1)
 
 
 @compiled
-def _note_lobe(lobes, found, node, before, depth, after, valley_node):
-    """Store a candidate: node numbers and the depths around it, until it is refined."""
+def _note_candidate(candidates, found, node, before, depth, after, valley):
+    """Store a node of greatest depth and the depths around it; return the new number of them."""
     if found == MOST_LOBES:
         least = 0
         for k in range(1, found):
-            if lobes[k, LOBE_PENETRATION] < lobes[least, LOBE_PENETRATION]:
+            if candidates[k].depth < candidates[least].depth:
                 least = k
-        if lobes[least, LOBE_PENETRATION] >= depth:
+        if candidates[least].depth >= depth:
             return found
         for k in range(least, found - 1):
-            for j in range(LOBE_WIDTH):
-                lobes[k, j] = lobes[k + 1, j]
+            candidates[k] = candidates[k + 1]
         found -= 1
-    lobes[found, LOBE_ARC] = node
-    lobes[found, LOBE_PENETRATION] = depth
-    lobes[found, LOBE_LEFT] = valley_node
-    lobes[found, LOBE_FOOT] = before
-    lobes[found, LOBE_CURVATURE] = after
+    candidate = candidates[found]
+    candidate.node = node
+    candidate.depth = depth
+    candidate.valley = valley
+    candidate.before = before
+    candidate.after = after
     return found + 1
 
 
 @compiled(inline="always")
-def _vertex(left, middle, right, lobes, k):
+def _vertex(left, middle, right, candidate):
     """Vertex of the parabola through the depths at three nodes."""
-    fall = lobes[k, LOBE_PENETRATION] - lobes[k, LOBE_FOOT]
-    rise = lobes[k, LOBE_CURVATURE] - lobes[k, LOBE_PENETRATION]
+    fall = candidate.depth - candidate.before
+    rise = candidate.after - candidate.depth
     curve = fall - rise
     shift = 0.25 * (fall + rise) / curve * (right - left) if curve > 0.0 else 0.0
     return min(max(middle + shift, left), right)
 
 
 @compiled
-def _refine_lobes(table, side, cy, cz, lx, ly, lz, lobes, found, first_node, final_node):
-    nodes = int(table[side + NODES])
+def _refine_lobes(table, side, axle, work, found, first_node, final_node):
+    """Turn the candidates into lobes that reach into the rail; return their number."""
+    arcs = block_row(table, side.nodes, NODE_ARC)
+    lobes = work.lobes
     kept = 0
     for k in range(found):
-        node = int(lobes[k, LOBE_ARC])
-        valley_node = int(lobes[k, LOBE_LEFT])
-        left = table[nodes + max(node - 1, 0)]
-        middle = table[nodes + node]
-        right = table[nodes + min(node + 1, final_node)]
+        candidate = work.candidates[k]
+        left = arcs[max(candidate.node - 1, 0)]
+        middle = arcs[candidate.node]
+        right = arcs[min(candidate.node + 1, final_node)]
         arc, foot, penetration, bend = level_tangent(
-            table, side, left, right, _vertex(left, middle, right, lobes, k), 1.0,
-            cy, cz, lx, ly, lz,
-        )  # fmt: skip
+            table, side, left, right, _vertex(left, middle, right, candidate), 1.0, axle
+        )
         if penetration <= 0.0:
             continue
-        lobes[kept, LOBE_ARC] = arc
-        lobes[kept, LOBE_FOOT] = foot
-        lobes[kept, LOBE_PENETRATION] = penetration
-        lobes[kept, LOBE_CURVATURE] = bend
-        lobes[kept, LOBE_LEFT] = table[nodes + first_node]
-        lobes[kept, LOBE_SEPARATION] = 1.0
-        lobes[kept, MERGED_DEPTH] = 0.0
+        lobe = lobes[kept]
+        lobe.arc = arc
+        lobe.foot = foot
+        lobe.penetration = penetration
+        lobe.curvature = bend
+        lobe.left = arcs[first_node]
+        lobe.right = side.wheel.segments * side.wheel.spacing
+        lobe.separation = 1.0
+        lobe.merged_depth = 0.0
         if kept > 0:
-            before = table[nodes + max(valley_node - 1, 0)]
-            after = table[nodes + min(valley_node + 1, final_node)]
-            before = max(before, lobes[kept - 1, LOBE_ARC])
-            after = min(after, arc)
+            neighbour = lobes[kept - 1]
+            before = max(arcs[max(candidate.valley - 1, 0)], neighbour.arc)
+            after = min(arcs[min(candidate.valley + 1, final_node)], arc)
             border, _, depth, _ = level_tangent(
-                table, side, before, after, 0.5 * (before + after), -1.0, cy, cz, lx, ly, lz
+                table, side, before, after, 0.5 * (before + after), -1.0, axle
             )
-            lobes[kept - 1, LOBE_RIGHT] = border
-            lobes[kept, LOBE_LEFT] = border
-            smaller = min(penetration, lobes[kept - 1, LOBE_PENETRATION])
+            neighbour.right = border
+            lobe.left = border
+            smaller = min(penetration, neighbour.penetration)
             prominence = (smaller - depth) / (VIRTUAL * smaller)
             # Nearly one lobe is treated as one: the scan may see it as one as well.
             prominence = (prominence - MERGED_PROMINENCE) / (1.0 - MERGED_PROMINENCE)
             prominence = min(max(prominence, 0.0), 1.0)
-            lobes[kept - 1, LOBE_SEPARATION] = prominence * prominence * (3.0 - 2.0 * prominence)
+            neighbour.separation = prominence * prominence * (3.0 - 2.0 * prominence)
         kept += 1
-    if kept > 0:
-        segments = table[side + WHEEL_SEGMENTS]
-        lobes[kept - 1, LOBE_RIGHT] = segments * table[side + WHEEL_SPACING]
-        lobes[kept - 1, LOBE_SEPARATION] = 1.0
     return kept
 
 
 @compiled
-def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz):
-    """Wheel arc between `arc` (a maximum) and `limit` where the penetration falls to `level`."""
+def zone_end(table, side, lobe, limit, level, axle):
+    """Wheel arc between the lobe's maximum and `limit` where the penetration falls to `level`."""
+    arc, foot = lobe.arc, lobe.foot
     direction = 1.0 if limit > arc else -1.0
     reach = abs(limit - arc)
-    excess = penetration - level
+    excess = lobe.penetration - level
     # Where the gap is nearly flat the parabola's width is no guide: start within 1 cm or so.
-    distance = min(math.sqrt(2.0 * excess / max(bend, 0.5)), reach)
+    distance = min(math.sqrt(2.0 * excess / max(lobe.curvature, 0.5)), reach)
     inner = 0.0
     outer = reach
     for _ in range(20):
         depth, sine, _, _ = probe(
-            table, side, arc + direction * distance, foot + direction * distance,
-            cy, cz, lx, ly, lz,
-        )  # fmt: skip
+            table, side, arc + direction * distance, foot + direction * distance, axle
+        )
         rest = depth - level
         slope = direction * sine
         step = rest / slope if slope > 1.0e-9 else math.copysign(reach, rest)
@@ -326,24 +319,20 @@ def zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx
 
 
 @compiled
-def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, cy, cz, lx, ly, lz):
-    """Integrals over the zone around `arc` where penetration exceeds `level`.
-
-    Returns (I, int arc, int foot, int normal_y, int normal_z), each weighted with penetration
-    minus level [m]; the normal is the mean of wheel's and rail's, from rail into wheel.
-    """
+def zone_moments(table, side, lobe, level, axle):
+    """Zone of the lobe where penetration exceeds `level`: its moments."""
+    arc, foot = lobe.arc, lobe.foot
     total = 0.0
     total_arc = 0.0
     total_foot = 0.0
     total_ny = 0.0
     total_nz = 0.0
     for half in range(2):
-        limit = left if half == 0 else right
-        end = zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz)
+        end = zone_end(table, side, lobe, lobe.left if half == 0 else lobe.right, level, axle)
         length = abs(end - arc)
         for k in range(5):
             place = arc + (end - arc) * GAUSS[k][0]
-            py, pz, ny, nz, _ = wheel_section(table, side, place, cy, cz, lx, ly, lz)
+            py, pz, ny, nz, _ = wheel_section(table, side, place, axle)
             at, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
             weight = GAUSS[k][1] * length * max(-height - level, 0.0)
             total += weight
@@ -351,13 +340,4 @@ def zone_moments(table, side, arc, foot, penetration, bend, left, right, level, 
             total_foot += weight * at
             total_ny += weight * 0.5 * (-tz - ny)
             total_nz += weight * 0.5 * (ty - nz)
-    return total, total_arc, total_foot, total_ny, total_nz
-
-
-__all__ = [
-    "LOBE_WIDTH",
-    "MOST_LOBES",
-    "VIRTUAL",
-    "find_lobes",
-    "zone_moments",
-]
+    return Zone(total, total_arc, total_foot, total_ny, total_nz)

@@ -1,8 +1,9 @@
 """One flat table with everything the contact kernels know about a wheelset on its track.
 
 The kernels take one float64 array instead of many, because unpacking an array costs a call from
-Python more than the work on a patch. Each side has a header of HEADER numbers (left at 0, right at
-HEADER); the right side is stored mirrored to the left, so that both sides run the same code.
+Python more than the work on a patch. It begins with two records SIDE (layout.py), left and right,
+which say where curves, nodes and grids lie in the rest; the right side is stored mirrored to the
+left, so that both sides run the same code.
 """
 
 from __future__ import annotations
@@ -12,18 +13,9 @@ from functools import lru_cache
 import numpy as np
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
+from exudyn_wheelset.contact.layout import HEADER, MOST_NODES, SIDE
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
-
-TAPE, RADIUS, DATUM = 0, 1, 2
-WHEEL, WHEEL_SPACING, WHEEL_SEGMENTS = 3, 4, 5
-RAIL, RAIL_SPACING, RAIL_SEGMENTS = 6, 7, 8
-NODES, NODE_COUNT = 9, 10
-GRID, GRID_START, GRID_STEP, GRID_COUNT = 11, 12, 13, 14
-RAIL_LOW, RAIL_HIGH = 15, 16
-FINE_NODES, FINE_COUNT = 17, 18
-HEADER = 24
-MOST_NODES = 320
 
 # Two nodes a pair of millimetres see every patch: the sharpest curvatures in use (12 mm flange tip
 # on a 13 mm gauge corner) sag 0.08 mm over a millimetre, less than SCAN_MARGIN in search.py; lobes
@@ -58,54 +50,50 @@ class _Identity:
 def _contact_tables(wheelset_key: _Identity, track_key: _Identity) -> np.ndarray:
     wheelset: Wheelset = wheelset_key.what  # type: ignore[assignment]
     track: Track = track_key.what  # type: ignore[assignment]
-    blocks: list[np.ndarray] = []
-    size = 2 * HEADER
-    headers = np.zeros((2, HEADER))
-    sides = [(wheelset.wheel, wheelset.radius, track.left_placement)]
+    table = np.zeros(HEADER)
     right_wheel = wheelset.right_wheel or wheelset.wheel
     right_radius = wheelset.right_radius or wheelset.radius
-    sides.append((right_wheel, right_radius, track.right_placement))
-    for header, (wheel, radius, rail) in zip(headers, sides, strict=True):
-        header[TAPE] = wheelset.tape_half_distance
-        header[RADIUS] = radius
-        header[DATUM] = rail.datum_y
-        for block, place in _side_blocks(header, wheel, radius, rail, wheelset.tape_half_distance):
-            header[place] = size
-            blocks.append(block.ravel())
-            size += block.size
-    table = np.concatenate([headers.ravel(), *blocks])
+    sides = [
+        (wheelset.wheel, wheelset.radius, track.left_placement),
+        (right_wheel, right_radius, track.right_placement),
+    ]
+    tape = wheelset.tape_half_distance
+    for hand, (wheel, radius, rail) in enumerate(sides):
+        side = np.zeros(1, SIDE)[0]
+        for name, block in _side_blocks(side, wheel, radius, rail, tape):
+            side[name]["offset"] = table.size
+            table = np.append(table, block)
+        table[:HEADER].view(SIDE)[hand] = side
     table.setflags(write=False)
     return table
 
 
-def _side_blocks(header, wheel: Profile, radius: float, rail: RailPlacement, tape: float):
+def _side_blocks(
+    side: np.record, wheel: Profile, radius: float, rail: RailPlacement, tape: float
+) -> list[tuple[str, np.ndarray]]:
+    """Fill a SIDE record but for the offsets; return its curves, nodes and grid by field."""
     wheel_table = wheel.arc_table()
     wheel_curve = _gentle_part(wheel_table.coefficients, wheel.name)
     rail_curve = _gentle_part(rail.coefficients, "rail")
-    header[WHEEL_SPACING] = wheel_table.ds
-    header[WHEEL_SEGMENTS] = len(wheel_curve)
-    header[RAIL_SPACING] = rail.spacing
-    header[RAIL_SEGMENTS] = len(rail_curve)
     # A knife-edge is narrower than the usual spacing: nodes that do not step over it.
     node_spacing = min(NODE_SPACING, (rail_curve[-1, 0] - rail_curve[0, 0]) / 4.0)
     coarsest = wheel_table.ds * -(-len(wheel_curve) // MOST_NODES)
     nodes = _nodes(wheel_curve, wheel_table.ds, max(node_spacing, coarsest), radius, tape)
     fine = _nodes(wheel_curve, wheel_table.ds, 0.5 * node_spacing, radius, tape)
-    header[NODE_COUNT] = nodes.shape[1]
-    header[FINE_COUNT] = fine.shape[1]
     grid, start = _grid(rail_curve, rail.spacing)
-    header[GRID_START] = start
-    header[GRID_STEP] = GRID_SPACING
-    header[GRID_COUNT] = grid.shape[1]
-    header[RAIL_LOW] = start + GRID_SPACING
-    header[RAIL_HIGH] = start + (grid.shape[1] - 2) * GRID_SPACING
-    return [
-        (wheel_curve, WHEEL),
-        (rail_curve, RAIL),
-        (nodes, NODES),
-        (grid, GRID),
-        (fine, FINE_NODES),
-    ]
+    side["radius"], side["tape"], side["datum"] = radius, tape, rail.datum_y
+    for curve, rows, spacing in (
+        ("wheel", wheel_curve, wheel_table.ds),
+        ("rail", rail_curve, rail.spacing),
+    ):
+        side[curve]["segments"], side[curve]["spacing"] = len(rows), spacing
+    blocks = [("nodes", nodes), ("grid", grid), ("fine_nodes", fine)]
+    for name, block in blocks:
+        side[name]["count"] = block.shape[1]
+    side["grid_start"], side["grid_step"] = start, GRID_SPACING
+    side["rail_low"] = start + GRID_SPACING
+    side["rail_high"] = start + (grid.shape[1] - 2) * GRID_SPACING
+    return [("wheel", wheel_curve), ("rail", rail_curve), *blocks]
 
 
 def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
@@ -127,7 +115,10 @@ def _gentle_part(coefficients: np.ndarray, name: str) -> np.ndarray:
 def _nodes(
     curve: np.ndarray, spacing: float, node_spacing: float, radius: float, tape: float
 ) -> np.ndarray:
-    """Rows: arc length, distance from the axle's centre, radius, dr/dy, 1/sqrt(1 + (dr/dy)^2)."""
+    """Rows NODE_...: arc length, distance from the axle's centre, radius, dr/dy, flatness.
+
+    flatness: 1/sqrt(1 + (dr/dy)^2).
+    """
     step = max(round(node_spacing / spacing), 1)
     picked = np.arange(0, len(curve), step)
     rows = curve[picked]
@@ -144,7 +135,7 @@ def _nodes(
 
 
 def _grid(curve: np.ndarray, spacing: float) -> tuple[np.ndarray, float]:
-    """Rows: rail height and arc length on a uniform lateral grid."""
+    """Rows GRID_...: rail height and arc length on a uniform lateral grid."""
     start = float(curve[0, 0])
     count = int((curve[-1, 0] - start) / GRID_SPACING)
     lateral = start + GRID_SPACING * np.arange(count)

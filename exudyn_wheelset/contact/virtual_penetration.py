@@ -23,7 +23,7 @@ import numpy as np
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.locus import rail_foot, wheel_section
-from exudyn_wheelset.contact.search import VIRTUAL, zone_end
+from exudyn_wheelset.contact.search import zone_end
 
 # Gauss's points on (0, 1) for t in y = end t^2: the square takes the logarithm at y = 0 out.
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(7)
@@ -50,25 +50,21 @@ def elliptic_k_minus_e(m):
 
 
 @compiled
-def zone_integrals(
-    table, side, arc, foot, penetration, bend, left, right, level, origin, along,
-    cy, cz, lx, ly, lz,
-):  # fmt: skip
-    """I_1 [m^3] and I_2 [m^2] over the zone of the lobe at `arc` deeper than `level`.
+def zone_integrals(table, side, lobe, level, origin, along, axle):
+    """I_1 [m^3] and I_2 [m^2] over the zone of the lobe deeper than `level`.
 
-    origin: arc of the deepest point of the patch; along: A [1/m]. Other names as in search.py.
+    origin: wheel arc of the deepest point of the patch; along: A [1/m].
     """
     first = 0.0
     second = 0.0
     for half in range(2):
-        limit = left if half == 0 else right
-        end = zone_end(table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz)
-        reach = end - arc
+        end = zone_end(table, side, lobe, lobe.left if half == 0 else lobe.right, level, axle)
+        reach = end - lobe.arc
         for k in range(len(_POINTS)):
             t = _POINTS[k]
-            place = arc + reach * t * t
-            py, pz, _, _, _ = wheel_section(table, side, place, cy, cz, lx, ly, lz)
-            _, _, _, _, height = rail_foot(table, side, py, pz, foot + place - arc)
+            place = lobe.arc + reach * t * t
+            py, pz, _, _, _ = wheel_section(table, side, place, axle)
+            _, _, _, _, height = rail_foot(table, side, py, pz, lobe.foot + place - lobe.arc)
             square = max(-height - level, 0.0) / along
             weight = _WEIGHTS[k] * 2.0 * t * abs(reach)
             total = square + (place - origin) ** 2
@@ -84,41 +80,9 @@ def zone_integrals(
 
 
 @compiled
-def virtual_penetration_force(first, second, penetration, shear_modulus, poisson):
+def virtual_penetration_force(first, second, penetration, material):
     """N [N] of the integrals over the whole patch, both bodies of the same material."""
     if second <= 0.0:
         return 0.0
-    return math.pi * shear_modulus / (1.0 - poisson) * penetration * first / second
-
-
-@compiled
-def zone_outline(
-    table, side, arc, foot, penetration, bend, left, right, level, along, count,
-    cy, cz, lx, ly, lz,
-):  # fmt: skip
-    """Half lengths x_l [m] of the zone over wheel arc length: (count, 2), ends at zero."""
-    outline = np.zeros((count, 2))
-    ends = np.empty(2)
-    for half in range(2):
-        limit = left if half == 0 else right
-        ends[half] = zone_end(
-            table, side, arc, foot, penetration, bend, limit, level, cy, cz, lx, ly, lz
-        )
-    for k in range(count):
-        place = 0.5 * (ends[0] + ends[1]) - 0.5 * (ends[1] - ends[0]) * math.cos(
-            math.pi * k / (count - 1)
-        )
-        py, pz, _, _, _ = wheel_section(table, side, place, cy, cz, lx, ly, lz)
-        _, _, _, _, height = rail_foot(table, side, py, pz, foot + place - arc)
-        outline[k, 0] = place - arc
-        outline[k, 1] = math.sqrt(max(-height - level, 0.0) / along)
-    return outline
-
-
-__all__ = [
-    "VIRTUAL",
-    "elliptic_k_minus_e",
-    "virtual_penetration_force",
-    "zone_integrals",
-    "zone_outline",
-]
+    stiffness = math.pi * material.shear_modulus / (1.0 - material.poisson)
+    return stiffness * penetration * first / second

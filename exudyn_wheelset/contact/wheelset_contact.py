@@ -28,45 +28,10 @@ from exudyn_wheelset.contact.descriptions import (
     check_contact_names,
 )
 from exudyn_wheelset.contact.forces import wheelset_forces
-from exudyn_wheelset.contact.search import MOST_LOBES
+from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
-
-
-@dataclass(frozen=True)
-class Patch:
-    """One contact patch; positions and angle count towards the field side of its own wheel.
-
-    wheel_y [m] from the tape circle, rail_y [m] from the rail's highest point, angle [rad],
-    radius [m] rolling radius, normal_force [N], creep_x, creep_y [-], spin [1/m], fx, fy [N] creep
-    force on the wheel along x and the lateral tangent (right-handed triad, y to the left on both
-    sides), mz [N m] about the normal, a, b [m] semi-axes along rolling and lateral, penetration
-    [m], position (3) [m] from the wheelset's centre and normal (3), track frame; energy [J]
-    elastic energy stored.
-    """
-
-    wheel_y: float
-    rail_y: float
-    angle: float
-    radius: float
-    normal_force: float
-    creep_x: float
-    creep_y: float
-    spin: float
-    fx: float
-    fy: float
-    mz: float
-    a: float
-    b: float
-    penetration: float
-    position: tuple[float, float, float]
-    normal: tuple[float, float, float]
-    energy: float
-
-
-# The row of a patch begins with its plain numbers, in the order of the fields.
-_PATCH_NUMBERS = tuple(Patch.__dataclass_fields__)[: kernel.PATCH_X]
 
 
 @dataclass(frozen=True)
@@ -110,14 +75,13 @@ def contact_parameters(
         **law_parameters,
     )
     parameters = np.zeros(kernel.PARAMETER_COUNT)
-    parameters[kernel.FRICTION] = chosen.friction
-    parameters[kernel.SHEAR_MODULUS] = chosen.shear_modulus
-    parameters[kernel.POISSON] = chosen.poisson
-    parameters[kernel.DAMPING] = chosen.damping
-    parameters[kernel.LAW] = creep_law(chosen.creep).number
-    parameters[kernel.NORMAL] = NORMAL_MODELS[chosen.normal]
+    record = parameters.view(kernel.PARAMETERS)[0]
+    for name in ("friction", "shear_modulus", "poisson", "damping"):
+        record[name] = getattr(chosen, name)
+    record["law"] = creep_law(chosen.creep).number
+    record["normal"] = NORMAL_MODELS[chosen.normal]
     values = creep_parameters(chosen.creep, **dict(chosen.law_parameters))
-    parameters[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(values)] = values
+    record["law_parameters"][: len(values)] = values
     return parameters
 
 
@@ -177,32 +141,29 @@ def contact_forces(
         damping=damping,
         **law_parameters,
     )
-    axle = (-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll))
+    cosine = math.cos(roll)
+    axle = Axle(y, z, -math.sin(yaw) * cosine, math.cos(yaw) * cosine, math.sin(roll))
     result = kernel.new_result()
     table = contact_tables(wheelset, track)
-    wheelset_forces(table, y, z, *axle, *motion_of_centre, motion, parameters, result)  # type: ignore[call-arg]
+    wheelset_forces(table, axle, Velocity(*motion_of_centre), motion, parameters, result)
     return read_result(result)
 
 
 def read_result(result: np.ndarray) -> ContactForces:
     """Turn the kernel's result array into named forces and patches."""
-    sides = []
-    for hand in range(2):
-        patches = []
-        for k in range(int(result[kernel.COUNT_LEFT + hand])):
-            start = kernel.PATCHES + (hand * MOST_LOBES + k) * kernel.PATCH_WIDTH
-            row = result[start : start + kernel.PATCH_WIDTH].tolist()
-            numbers = dict(zip(_PATCH_NUMBERS, row, strict=False))
-            patches.append(
-                Patch(
-                    **numbers,
-                    position=(row[kernel.PATCH_X], row[kernel.PATCH_Y], row[kernel.PATCH_Z]),
-                    normal=(0.0, row[kernel.PATCH_NORMAL_Y], row[kernel.PATCH_NORMAL_Z]),
-                    energy=row[kernel.PATCH_ENERGY],
-                )
-            )
-        sides.append(tuple(patches))
-    return ContactForces(result[0:3].copy(), result[3:6].copy(), sides[0], sides[1])
+    record = result.view(kernel.RESULT)[0]
+    left, right = (
+        tuple(_patch(patch) for patch in record["patches"][hand, : record["count"][hand]])
+        for hand in range(2)
+    )
+    return ContactForces(record["force"].copy(), record["moment"].copy(), left, right)
+
+
+def _patch(record: np.record) -> Patch:
+    values = {name: np.asarray(record[name]).tolist() for name in kernel.PATCH.names or ()}
+    for name in ("position", "normal"):
+        values[name] = tuple(values[name])
+    return Patch(**values)
 
 
 def _numbers(what: str, values: Sequence[float], count: int) -> np.ndarray:

@@ -20,9 +20,8 @@ from exudyn.utilities import (
 )
 
 from exudyn_wheelset.checking import number
-from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check_contact_names
-from exudyn_wheelset.contact.search import MOST_LOBES
+from exudyn_wheelset.contact.layout import RESULT
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.registration import (
@@ -48,16 +47,7 @@ SENSOR_VALUES = (
     "penetration",
     "patches",
 )
-_SENSOR_ROWS = (
-    kernel.PATCH_CREEP_X,
-    kernel.PATCH_CREEP_Y,
-    kernel.PATCH_SPIN,
-    kernel.PATCH_WHEEL_Y,
-    kernel.PATCH_RAIL_Y,
-    kernel.PATCH_ANGLE,
-    kernel.PATCH_RADIUS,
-    kernel.PATCH_PENETRATION,
-)
+_WEIGHTED_VALUES = SENSOR_VALUES[3:-1]
 
 
 def create_wheelset(
@@ -240,18 +230,17 @@ def _sensor(contact: WheelRailContact, hand: int) -> Any:
     """Sensor function of one wheel: SENSOR_VALUES, forces summed over patches, rest weighted."""
 
     def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
-        result = contact.evaluate(mbs, configuration)
-        count = int(result[kernel.COUNT_LEFT + hand])
-        start = kernel.PATCHES + hand * MOST_LOBES * kernel.PATCH_WIDTH
-        rows = result[start : start + count * kernel.PATCH_WIDTH].reshape(count, kernel.PATCH_WIDTH)
-        force = rows[:, kernel.PATCH_NORMAL_FORCE]
+        result = contact.evaluate(mbs, configuration).view(RESULT)[0]
+        count = int(result["count"][hand])
+        patches = result["patches"][hand, :count]
+        force = patches["normal_force"]
         total = float(force.sum())
         weights = force / total if total > 0.0 else force
         return [
             total,
-            float(rows[:, kernel.PATCH_FX].sum()),
-            float(rows[:, kernel.PATCH_FY].sum()),
-            *(float(weights @ rows[:, row]) for row in _SENSOR_ROWS),
+            float(patches["fx"].sum()),
+            float(patches["fy"].sum()),
+            *(float(weights @ patches[name]) for name in _WEIGHTED_VALUES),
             float(count),
         ]
 

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.forces import wheelset_forces
-from exudyn_wheelset.contact.search import MOST_LOBES
+from exudyn_wheelset.contact.layout import RESULT
 from exudyn_wheelset.errors import WheelsetError
 
 # Rates [m/s] for the differences: small against a creep of 1e-4 at walking speed, large against
@@ -60,23 +59,20 @@ class RailElasticity:
 @compiled
 def side_forces(result, forces):
     """Fill forces (4): lateral and vertical force [N] on the left, then on the right wheel."""
+    record = result.view(RESULT)[0]
     for hand in range(2):
         forces[2 * hand] = 0.0
         forces[2 * hand + 1] = 0.0
-        for k in range(int(result[kernel.COUNT_LEFT + hand])):
-            row = kernel.PATCHES + (hand * MOST_LOBES + k) * kernel.PATCH_WIDTH
-            ny = result[row + kernel.PATCH_NORMAL_Y]
-            nz = result[row + kernel.PATCH_NORMAL_Z]
-            normal = result[row + kernel.PATCH_NORMAL_FORCE]
-            lateral = result[row + kernel.PATCH_FY]
-            forces[2 * hand] += nz * lateral + ny * normal
-            forces[2 * hand + 1] += nz * normal - ny * lateral
+        for k in range(record.count[hand]):
+            patch = record.patches[hand, k]
+            ny, nz = patch.normal[1], patch.normal[2]
+            forces[2 * hand] += nz * patch.fy + ny * patch.normal_force
+            forces[2 * hand + 1] += nz * patch.normal_force - ny * patch.fy
 
 
 @compiled
 def elastic_forces(
-    table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result,
-    elasticity, shifts, rates,
+    table, axle, velocity, rail_motion, parameters, result, elasticity, shifts, rates
 ):  # fmt: skip
     """As `wheelset_forces`, on rails shifted by `shifts` (4) [m] against their springs.
 
@@ -94,15 +90,11 @@ def elastic_forces(
             for k in range(4):
                 step = _RATE_STEP if k % 2 == direction else 0.0
                 rail_motion[4 + k] = unmoved[4 + k] + rates[k] + step
-            wheelset_forces(
-                table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result
-            )
+            wheelset_forces(table, axle, velocity, rail_motion, parameters, result)
             side_forces(result, moved[direction])
         for k in range(4):
             rail_motion[4 + k] = unmoved[4 + k] + rates[k]
-        wheelset_forces(
-            table, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz, rail_motion, parameters, result
-        )
+        wheelset_forces(table, axle, velocity, rail_motion, parameters, result)
         side_forces(result, forces)
         largest = 0.0
         for hand in range(2):

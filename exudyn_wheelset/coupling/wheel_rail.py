@@ -29,7 +29,8 @@ from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.forces import wheelset_forces
-from exudyn_wheelset.contact.tables import RADIUS, contact_tables
+from exudyn_wheelset.contact.layout import Axle, Velocity, side_of
+from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity, elastic_forces
 from exudyn_wheelset.errors import ContactError
@@ -90,23 +91,24 @@ def body_wrench(q, v, first, table, state, part):
         uz = tx * wy - ty * wx
         reference = state[_REFERENCE]
         y = reference[1] + q[first + 1]
-        z = reference[2] + q[first + 2] - table[RADIUS]
-        vx, vy, vz = v[first], v[first + 1], v[first + 2]
-        ox = wx + s * ux + c * (ty * uz - tz * uy)
-        oy = wy + s * uy + c * (tz * ux - tx * uz)
-        oz = wz + s * uz + c * (tx * uy - ty * ux)
+        z = reference[2] + q[first + 2] - side_of(table, 0).radius
+        axle = Axle(y, z, lx, ly, lz)
+        velocity = Velocity(
+            v[first], v[first + 1], v[first + 2],
+            wx + s * ux + c * (ty * uz - tz * uy),
+            wy + s * uy + c * (tz * ux - tx * uz),
+            wz + s * uz + c * (tx * uy - ty * ux),
+        )  # fmt: skip
         motion = state[_RAIL_MOTION]
         parameters = state[_PARAMETERS]
         elasticity = state[_ELASTICITY]
         if elasticity[0] > 0.0:
             elastic_forces(
-                table, y, z, lx, ly, lz, vx, vy, vz, ox, oy, oz, motion, parameters, result,
+                table, axle, velocity, motion, parameters, result,
                 elasticity, state[_SHIFTS], state[_RATES],
             )  # fmt: skip
         else:
-            wheelset_forces(
-                table, y, z, lx, ly, lz, vx, vy, vz, ox, oy, oz, motion, parameters, result
-            )
+            wheelset_forces(table, axle, velocity, motion, parameters, result)
     base = 3 * part
     return result[base], result[base + 1], result[base + 2]
 
@@ -153,7 +155,7 @@ class WheelRailContact:
     def set_speed(self, speed: float) -> None:
         """Set the speed [m/s] of the moving frame the model stands in."""
         self.rail_speed = float(speed)
-        self.parameters[kernel.RAIL_SPEED] = self.rail_speed
+        self.parameters.view(kernel.PARAMETERS)["rail_speed"] = self.rail_speed
         self.forget()
 
     def forget(self) -> None:
@@ -262,13 +264,13 @@ class WheelRailContact:
         A wheel that lifts off for a moment is no event.
         """
         result = self.evaluate(mbs)
-        left, right = result[kernel.COUNT_LEFT], result[kernel.COUNT_RIGHT]
+        left, right = result.view(kernel.RESULT)[0]["count"]
         data = mbs.systemData.GetODE2Coordinates()
         height = self.reference[2] + data[self.first + 2] - self.wheelset.radius
         shift = self.reference[1] + data[self.first + 1]
         if abs(shift) > _DERAILED_SHIFT or abs(height) > _DERAILED_RISE:
             raise ContactError(
                 f"derailment: the wheelset stands at y = {shift * 1e3:.1f} mm, "
-                f"{height * 1e3:.1f} mm above its nominal height, with {left:.0f} patches on the "
-                f"left and {right:.0f} on the right"
+                f"{height * 1e3:.1f} mm above its nominal height, with {left} patches on the "
+                f"left and {right} on the right"
             )

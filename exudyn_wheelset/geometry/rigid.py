@@ -23,16 +23,9 @@ from scipy.optimize import minimize
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.layout import Axle, side_of
 from exudyn_wheelset.contact.locus import wheel_point
-from exudyn_wheelset.contact.tables import (
-    DATUM,
-    HEADER,
-    RADIUS,
-    RAIL,
-    RAIL_SEGMENTS,
-    RAIL_SPACING,
-    contact_tables,
-)
+from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 
@@ -175,20 +168,19 @@ def _roll_root(table, y, yaw, guess):
 
 
 @compiled
-def _fill_side(table, side, y, lx, ly, lz, row):
-    gap, arc, at, second, second_arc, second_at = least_gap(table, side, y, lx, ly, lz)
-    offset = int(table[side + RAIL])
-    spacing = table[side + RAIL_SPACING]
-    segments = int(table[side + RAIL_SEGMENTS])
-    x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(table, side, arc, y, 0.0, lx, ly, lz)
+def _fill_side(table, hand, y, lx, ly, lz, row):
+    gap, arc, at, second, second_arc, second_at = least_gap(table, hand, y, lx, ly, lz)
+    side = side_of(table, hand)
+    axle = Axle(y, 0.0, lx, ly, lz)
+    x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(table, side, arc, axle)
     row[0] = wheel_y
-    row[1] = curve_point(table, offset, spacing, segments, at)[0] - table[side + DATUM]
+    row[1] = curve_point(table, side.rail, at)[0] - side.datum
     row[2] = math.atan2(ny, -nz)
     row[3] = radius
     row[4] = x
     if second < np.inf:
-        row[5] = wheel_point(table, side, second_arc, y, 0.0, lx, ly, lz)[6]
-        row[6] = curve_point(table, offset, spacing, segments, second_at)[0] - table[side + DATUM]
+        row[5] = wheel_point(table, side, second_arc, axle)[6]
+        row[6] = curve_point(table, side.rail, second_at)[0] - side.datum
     else:
         row[5] = row[6] = np.nan
     return gap, second - gap if second < np.inf else np.nan
@@ -216,8 +208,8 @@ def _geometry(table, y, yaw, order, roll, known, heights, left, right, second):
         ly = math.cos(yaw[k]) * math.cos(roll[k])
         lz = math.sin(roll[k])
         gap_left, second[k, 0] = _fill_side(table, 0, y[k], lx, ly, lz, left[k])
-        gap_right, second[k, 1] = _fill_side(table, HEADER, -y[k], -lx, ly, -lz, right[k])
-        heights[k] = -0.5 * (gap_left + gap_right) - table[RADIUS]
+        gap_right, second[k, 1] = _fill_side(table, 1, -y[k], -lx, ly, -lz, right[k])
+        heights[k] = -0.5 * (gap_left + gap_right) - side_of(table, 0).radius
         if heights[k] != heights[k]:
             return k
     return -1
@@ -291,7 +283,7 @@ def _roll_by_nelder_mead(
         cosine, lz = math.cos(roll), math.sin(roll)
         lx, ly = -math.sin(yaw) * cosine, math.cos(yaw) * cosine
         left = least_gap(table, 0, y, lx, ly, lz)
-        right = least_gap(table, HEADER, -y, -lx, ly, -lz)
+        right = least_gap(table, 1, -y, -lx, ly, -lz)
         one, other = (left, right) if left[3] - left[0] <= right[3] - right[0] else (right, left)
         if not np.isfinite(one[3]):
             return abs(one[0] - other[0])
@@ -311,7 +303,7 @@ def _roll_by_nelder_mead(
     cosine, lz = math.cos(roll), math.sin(roll)
     lx, ly = -math.sin(yaw) * cosine, math.cos(yaw) * cosine
     left = least_gap(table, 0, y, lx, ly, lz)
-    right = least_gap(table, HEADER, -y, -lx, ly, -lz)
+    right = least_gap(table, 1, -y, -lx, ly, -lz)
     if min(left[3] - left[0], right[3] - right[0]) < 1e-7:
         around = np.array([[roll], [roll + 1e-5]])
         found = minimize(

@@ -19,15 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.contact.layout import Axle, side_of
 from exudyn_wheelset.contact.locus import wheel_point
-from exudyn_wheelset.contact.tables import (
-    DATUM,
-    HEADER,
-    RAIL,
-    RAIL_SEGMENTS,
-    RAIL_SPACING,
-    contact_tables,
-)
+from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.rigid import (
     ContactGeometry,
@@ -64,7 +58,7 @@ def level_contact_geometry(wheelset: Wheelset, track: Track, y: ArrayLike) -> Co
     sides = np.full((2, len(shifts), 9), np.nan)
     table = contact_tables(wheelset, track)
     _level_side(table, 0, shifts, sides[0])
-    _level_side(table, HEADER, -shifts, sides[1])
+    _level_side(table, 1, -shifts, sides[1])
     lost = np.flatnonzero(np.isnan(sides[:, :, 0]).any(axis=0))
     if len(lost):
         raise ContactError(
@@ -114,28 +108,23 @@ def contact_range(
 
 
 @compiled
-def _level_side(table, side, y, rows):
+def _level_side(table, hand, y, rows):
     """Fill gap and the fields of ContactSide; NaN where there is no contact."""
-    offset = int(table[side + RAIL])
-    spacing = table[side + RAIL_SPACING]
-    segments = int(table[side + RAIL_SEGMENTS])
+    side = side_of(table, hand)
     for k in range(len(y)):
-        gap, arc, at, second, second_arc, second_at = least_gap(table, side, y[k], 0.0, 1.0, 0.0)
+        gap, arc, at, second, second_arc, second_at = least_gap(table, hand, y[k], 0.0, 1.0, 0.0)
         if not gap < np.inf:
             continue
         row = rows[k]
-        x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(
-            table, side, arc, y[k], 0.0, 0.0, 1.0, 0.0
-        )
+        axle = Axle(y[k], 0.0, 0.0, 1.0, 0.0)
+        x, _, _, ny, nz, radius, wheel_y, _ = wheel_point(table, side, arc, axle)
         row[0] = gap
         row[1] = wheel_y
-        row[2] = curve_point(table, offset, spacing, segments, at)[0] - table[side + DATUM]
+        row[2] = curve_point(table, side.rail, at)[0] - side.datum
         row[3] = math.atan2(ny, -nz)
         row[4] = radius
         row[5] = x
         if second < np.inf:
-            row[6] = wheel_point(table, side, second_arc, y[k], 0.0, 0.0, 1.0, 0.0)[6]
-            row[7] = (
-                curve_point(table, offset, spacing, segments, second_at)[0] - table[side + DATUM]
-            )
+            row[6] = wheel_point(table, side, second_arc, axle)[6]
+            row[7] = curve_point(table, side.rail, second_at)[0] - side.datum
             row[8] = second - gap

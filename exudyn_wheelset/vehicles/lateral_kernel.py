@@ -178,7 +178,7 @@ def lateral_accelerations(state, speed, p, breaks, coefficients, sides):
         determinant = m00 * m11 - m01 * m10
         left = (load * m11 - m01 * moment) / determinant
         right = (m00 * moment - m10 * load) / determinant
-        # A wheel that would have to be pulled down has lifted; the model ends there, see events.
+        # A wheel that would have to be pulled down has lifted: the model does not hold there.
         left = max(left, 1.0e-3 * p[AXLE_LOAD])
         right = max(right, 1.0e-3 * p[AXLE_LOAD])
         change = abs(left - sides[0, 0]) + abs(right - sides[1, 0])
