@@ -50,6 +50,7 @@ _PLACES = {
     "paper_parameters": "vehicles.lateral_wheelset",
     "piecewise_geometry": "geometry.piecewise",
     "quasi_static_descent": "stability.hunting.descent",
+    "register_creep_law": "creep",
     "root_locus": "stability.linear.linearisation",
     "save_profile": "profiles",
     "wheelsets_of": "coupling.registration",

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -87,7 +88,8 @@ class Contact:
     """How wheels and rails press and rub on each other.
 
     normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
-    point) or "virtual-penetration"; creep: name of a creep law; friction [-]; shear_modulus [Pa];
+    point) or "virtual-penetration"; creep: name of a creep law, or a compiled function of one's own
+    (`register_creep_law`); friction [-]; shear_modulus [Pa];
     poisson [-]; damping [s/m] of the normal contact, whose force it makes 1 + damping times the
     closing speed as large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by
     some 4 % of critical). law_parameters: those of the creep law, by name, here as pairs sorted by
@@ -97,7 +99,7 @@ class Contact:
     """
 
     normal: str = "hertz"
-    creep: str = "polach"
+    creep: Any = "polach"
     friction: float = 0.3
     shear_modulus: float = 82.0e9
     poisson: float = 0.28
@@ -107,7 +109,7 @@ class Contact:
     def __init__(
         self,
         normal: str = normal,
-        creep: str = creep,
+        creep: Any = creep,
         friction: float = friction,
         shear_modulus: float = shear_modulus,
         poisson: float = poisson,
@@ -121,6 +123,7 @@ class Contact:
         check_contact_names(creep, own)
         # Refuses what the law does not take together or in that range.
         creep_parameters(creep, **own)
+        own = creep_law(creep).expand(own)
         put = object.__setattr__
         put(self, "normal", normal)
         put(self, "creep", creep)
@@ -135,7 +138,7 @@ class Contact:
 CONTACT_NUMBERS = ("normal", "creep", "friction", "shear_modulus", "poisson", "damping")
 
 
-def check_contact_names(creep: str, names: Iterable[str], others: Iterable[str] = ()) -> None:
+def check_contact_names(creep: Any, names: Iterable[str], others: Iterable[str] = ()) -> None:
     """Raise WheelsetError for a name that is neither the creep law's nor a contact's own.
 
     The message offers the nearest of the law's parameters, the contact's numbers and `others`,
@@ -146,7 +149,7 @@ def check_contact_names(creep: str, names: Iterable[str], others: Iterable[str] 
     for name in names:
         if name not in of_law:
             known = [*of_law, *CONTACT_NUMBERS, *others]
-            raise unknown(f"parameter of creep law {creep!r}, or option", name, known)
+            raise unknown(f"parameter of creep law {law.name!r}, or option", name, known)
 
 
 @dataclass(frozen=True)

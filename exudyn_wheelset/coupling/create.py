@@ -64,7 +64,7 @@ def create_wheelset(
     gravity: float = 9.81,
     contact: Contact | None = None,
     normal: str = Contact.normal,
-    creep: str = Contact.creep,
+    creep: Any = Contact.creep,
     friction: float = Contact.friction,
     shear_modulus: float = Contact.shear_modulus,
     poisson: float = Contact.poisson,

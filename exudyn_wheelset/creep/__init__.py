@@ -11,6 +11,8 @@ from exudyn_wheelset.creep.registry import (
     creep_kernel,
     creep_law,
     creep_parameters,
+    law_of_kernel,
+    register_creep_law,
 )
 
 __all__ = [
@@ -22,4 +24,6 @@ __all__ = [
     "creep_law",
     "creep_parameters",
     "kalker_coefficients",
+    "law_of_kernel",
+    "register_creep_law",
 ]

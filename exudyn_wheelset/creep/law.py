@@ -31,7 +31,8 @@ class CreepLaw:
     """A creep law as `creep_kernel` knows it.
 
     `number` selects the law in compiled code; `parameters` are in the order of its array;
-    `shorthands` are names that set several parameters at once.
+    `shorthands` are names that set several parameters at once; `function` is that of a law of
+    one's own (exudyn_wheelset.creep.own).
     """
 
     name: str
@@ -39,6 +40,7 @@ class CreepLaw:
     source: str
     parameters: tuple[CreepParameter, ...] = ()
     shorthands: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    function: Any = None
 
     def expand(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
         """Parameters by their own names, shorthands and words replaced.

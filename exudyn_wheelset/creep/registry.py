@@ -1,25 +1,35 @@
 """The creep laws by name, one compiled entry for all of them, and the public `creep_force`.
 
-A law is added by a module with a kernel of the common signature and its `LAW`, one entry in
-`CREEP_LAWS` and one branch in `creep_kernel` (a chain over whole numbers, because compiled code
-that calls functions by reference cannot be cached on disk).
+A law is added to the package by a module with a kernel of the common signature and its `LAW`, one
+entry in `CREEP_LAWS` and one branch in `creep_kernel` (a chain over whole numbers, because compiled
+code that calls functions by reference cannot be cached on disk); outside the package by
+`register_creep_law`, or by giving the compiled function where a name is asked for.
 """
 
 from __future__ import annotations
 
-import difflib
 import math
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.creep.arguments import (
+    check_names,
+    check_patch,
+    check_together,
+    checked,
+    finite,
+    unknown,
+)
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.fastsim import fastsim
-from exudyn_wheelset.creep.law import CreepLaw
+from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.linear import LAW as LINEAR
 from exudyn_wheelset.creep.linear import linear
+from exudyn_wheelset.creep.own import OWN_LAW, address_of, call_law, law_at
 from exudyn_wheelset.creep.polach import LAW as POLACH
 from exudyn_wheelset.creep.polach import polach
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
@@ -43,6 +53,13 @@ CREEP_LAWS: dict[str, CreepLaw] = {
         FASTSIM,
         POLACH_KALKER,
     )
+}
+
+# A law has eight places in the kernels' arrays, the address of one's own takes the first.
+MOST_OWN_PARAMETERS = 7
+_ARGUMENTS = {
+    *("creep_x", "creep_y", "spin", "a", "b", "normal_force", "friction", "shear_modulus"),
+    *("poisson", "law", "normal", "creep", "damping", "contact", "law_parameters"),
 }
 
 _LINEAR = LINEAR.number
@@ -152,6 +169,19 @@ def creep_kernel(
             poisson,
             parameters,
         )
+    if law_number == OWN_LAW:
+        return call_law(  # type: ignore[call-arg]
+            creep_x,
+            creep_y,
+            spin,
+            a,
+            b,
+            normal_force,
+            friction,
+            shear_modulus,
+            poisson,
+            parameters,
+        )
     return fastsim(
         creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson, parameters
     )
@@ -183,35 +213,101 @@ def _creep_force_rows(law_number: int, states: NDArray, parameters: NDArray) -> 
     return forces
 
 
-def creep_law(name: str) -> CreepLaw:
-    """Give the description of a creep law.
+def creep_law(law: Any) -> CreepLaw:
+    """Give the description of a creep law by its name or by the compiled function of one's own.
 
     Raises WheelsetError for an unknown name; the message lists the names and the nearest one.
     """
-    try:
-        return CREEP_LAWS[name]
-    except (KeyError, TypeError):
-        raise WheelsetError(_unknown("creep law", name, list(CREEP_LAWS))) from None
+    if isinstance(law, CreepLaw):
+        return law
+    if isinstance(law, str):
+        if law not in CREEP_LAWS:
+            raise WheelsetError(unknown("creep law", law, list(CREEP_LAWS)))
+        return CREEP_LAWS[law]
+    for known in CREEP_LAWS.values():
+        if known.function is not None and known.function == law:
+            return known
+    address_of(law)
+    return CreepLaw(
+        getattr(law, "__name__", repr(law)), OWN_LAW, "a law of one's own", function=law
+    )
 
 
-def creep_parameters(law: str, **parameters: float) -> NDArray:
+def law_of_kernel(number: int, parameters: NDArray) -> CreepLaw | None:
+    """Give the description of the law of a number with its parameter array; None if unknown."""
+    if number == OWN_LAW:
+        function = law_at(int(parameters[0]))
+        return None if function is None else creep_law(function)
+    return next((law for law in CREEP_LAWS.values() if law.number == number), None)
+
+
+def register_creep_law(
+    name: str,
+    function: Any,
+    parameters: Mapping[str, float] | Iterable[CreepParameter] = (),
+    source: str = "a law of one's own",
+) -> CreepLaw:
+    """Give a compiled function a name that works wherever a creep law is asked for.
+
+    function(creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson,
+    parameters) -> (force_x, force_y, moment), compiled by numba.njit (or a numba.cfunc): arguments
+    and results as those of `creep_force`, numbers but for `parameters`, a float64 array of the
+    law's own parameters (at most 7): a mapping of names to defaults, or CreepParameter with range
+    and meaning. The function must be defined, and registered, in every process that uses the name.
+    Raises WheelsetError for a name that is taken by a law of the package, for names of parameters
+    that are arguments already and for a function that cannot be compiled.
+    """
+    if not isinstance(name, str) or not name:
+        raise WheelsetError(f"name = {name!r} of a creep law: give a word")
+    if name in CREEP_LAWS and CREEP_LAWS[name].function is None:
+        raise WheelsetError(f"creep law {name!r} belongs to the package: give another name")
+    if isinstance(parameters, Mapping):
+        parameters = [
+            CreepParameter(own, float(default), -math.inf, math.inf, "a parameter of one's own")
+            for own, default in parameters.items()
+        ]
+    own_parameters = tuple(parameters)
+    if len(own_parameters) > MOST_OWN_PARAMETERS:
+        raise WheelsetError(
+            f"creep law {name!r} has {len(own_parameters)} parameters: a law of one's own may have "
+            f"{MOST_OWN_PARAMETERS}; put what does not change into the function"
+        )
+    for parameter in own_parameters:
+        if parameter.name in _ARGUMENTS:
+            raise WheelsetError(
+                f"parameter {parameter.name!r} of creep law {name!r} is an argument of every law "
+                "or an option of the contact: give it another name"
+            )
+    address_of(function)
+    law = CreepLaw(name, OWN_LAW, source, own_parameters, function=function)
+    CREEP_LAWS[name] = law
+    return law
+
+
+def creep_parameters(law: Any, **parameters: float) -> NDArray:
     """Give the parameter array of a law for `creep_kernel`: its defaults with changes by name.
 
-    float64, in the order of `creep_law(law).parameters`. Raises WheelsetError for an unknown law,
-    an unknown parameter or a value outside its range.
+    float64, in the order of `creep_law(law).parameters`; a law of one's own has the address of its
+    function in front, which holds in this process only. Raises WheelsetError for an unknown law, an
+    unknown parameter or a value outside its range.
     """
     description = creep_law(law)
     parameters = description.expand(parameters)
-    _check_names(description, parameters)
+    check_names(description, parameters)
     values = np.array([p.default for p in description.parameters])
     for name, value in parameters.items():
-        values[description.index(name)] = _checked(description, name, np.asarray(value))
-    _check_together(description, values)
-    return values
+        values[description.index(name)] = checked(description, name, np.asarray(value))
+    check_together(description, values)
+    return np.concatenate([_address(description), values])
+
+
+def _address(description: CreepLaw) -> list[float]:
+    """What stands in front of a law's own parameters."""
+    return [] if description.function is None else [float(address_of(description.function))]
 
 
 def creep_force(
-    law: str,
+    law: Any,
     creep_x: ArrayLike,
     creep_y: ArrayLike,
     spin: ArrayLike,
@@ -225,17 +321,18 @@ def creep_force(
 ) -> tuple[Any, Any, Any]:
     """Give the creep forces and the spin moment (Fx, Fy, Mz) on the wheel.
 
-    Every argument is a number or an array, broadcast together; the results are floats or arrays
-    of the common shape. creep_x, creep_y [-] and spin [1/m] are (wheel - rail)/V in the contact
-    frame (x rolling, y lateral tangent to the left, z from rail into wheel); a along rolling and
-    b lateral are the semi-axes of the patch [m], > 0; normal_force [N] (none below zero);
+    law: its name, or a compiled function of one's own (`register_creep_law`).
+    Every other argument is a number or an array, broadcast together; the results are floats or
+    arrays of the common shape. creep_x, creep_y [-] and spin [1/m] are (wheel - rail)/V in the
+    contact frame (x rolling, y lateral tangent to the left, z from rail into wheel); a along rolling
+    and b lateral are the semi-axes of the patch [m], > 0; normal_force [N] (none below zero);
     friction >= 0; shear_modulus [Pa] > 0; poisson from 0 to 0.5. Fx, Fy [N] oppose the creep, Mz
     [N m] about z. `parameters` are those of the law, `creep_law(law).parameters`.
     Raises WheelsetError for an unknown law or parameter and for values out of range or not finite.
     """
     description = creep_law(law)
     parameters = description.expand(parameters)
-    _check_names(description, parameters)
+    check_names(description, parameters)
     given = {
         "creep_x": creep_x,
         "creep_y": creep_y,
@@ -247,10 +344,10 @@ def creep_force(
         "shear_modulus": shear_modulus,
         "poisson": poisson,
     }
-    arrays = [_finite(name, value) for name, value in given.items()]
-    _check_patch(dict(zip(given, arrays, strict=True)))
+    arrays = [finite(name, value) for name, value in given.items()]
+    check_patch(dict(zip(given, arrays, strict=True)))
     own = [
-        _checked(description, p.name, np.asarray(parameters.get(p.name, p.default)))
+        checked(description, p.name, np.asarray(parameters.get(p.name, p.default)))
         for p in description.parameters
     ]
     broadcast = np.broadcast_arrays(*arrays, *own)
@@ -259,78 +356,11 @@ def creep_force(
     states = np.ascontiguousarray(table[:, : len(arrays)])
     laws_own = np.ascontiguousarray(table[:, len(arrays) :])
     for row in laws_own[: len(laws_own) if any(np.ndim(v) for v in own) else 1]:
-        _check_together(description, row)
+        check_together(description, row)
+    if description.function is not None:
+        address = np.full((len(laws_own), 1), address_of(description.function), dtype=float)
+        laws_own = np.hstack([address, laws_own])
     forces = _creep_force_rows(description.number, states, laws_own)
     if shape == ():
         return float(forces[0, 0]), float(forces[0, 1]), float(forces[0, 2])
     return tuple(forces[:, i].reshape(shape) for i in range(3))  # type: ignore[return-value]
-
-
-def _unknown(kind: str, name: object, known: list[str]) -> str:
-    message = f"unknown {kind} {name!r}; known are {', '.join(known) or 'none'}"
-    near = difflib.get_close_matches(str(name).lower(), known, n=1, cutoff=0.3)
-    return f"{message}; did you mean {near[0]!r}?" if near else message
-
-
-def _check_names(description: CreepLaw, parameters: dict[str, Any]) -> None:
-    known = [p.name for p in description.parameters]
-    for name in parameters:
-        if name not in known:
-            raise WheelsetError(
-                _unknown(f"parameter of creep law {description.name!r}", name, known)
-            )
-
-
-def _finite(name: str, value: ArrayLike) -> NDArray:
-    try:
-        array = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise WheelsetError(f"{name} must be a number or an array, not {value!r}") from None
-    if not np.all(np.isfinite(array)):
-        raise WheelsetError(f"{name} must be finite, has {array[~np.isfinite(array)].flat[0]}")
-    return array
-
-
-def _checked(description: CreepLaw, name: str, value: NDArray) -> NDArray:
-    parameter = description.parameters[description.index(name)]
-    array = _finite(name, value)
-    wrong = (array < parameter.low) | (array > parameter.high)
-    if parameter.whole:
-        wrong |= array != np.round(array)
-    if np.any(wrong):
-        kind = "a whole number" if parameter.whole else "a number"
-        raise WheelsetError(
-            f"{name} of creep law {description.name!r} is {array[wrong].flat[0]:g}; it must be "
-            f"{kind} from {parameter.low:g} to {parameter.high:g} ({parameter.meaning})"
-        )
-    return array
-
-
-def _check_together(description: CreepLaw, values: NDArray) -> None:
-    if description.number == _POLACH_2005:
-        adhesion = values[description.index("adhesion_reduction")]
-        slip = values[description.index("slip_reduction")]
-        if slip > adhesion:
-            raise WheelsetError(
-                f"slip_reduction {slip:g} is above adhesion_reduction {adhesion:g}; Polach 2005 "
-                "asks for k_S <= k_A: lower slip_reduction"
-            )
-
-
-def _check_patch(values: dict[str, NDArray]) -> None:
-    limits = {
-        "a": ("m", math.ulp(0.0), math.inf),
-        "b": ("m", math.ulp(0.0), math.inf),
-        "friction": ("-", 0.0, math.inf),
-        "shear_modulus": ("Pa", math.ulp(0.0), math.inf),
-        "poisson": ("-", 0.0, 0.5),
-    }
-    for name, (unit, low, high) in limits.items():
-        wrong = (values[name] < low) | (values[name] > high)
-        if np.any(wrong):
-            ask = "positive" if high == math.inf and low > 0.0 else "at least 0"
-            if high < math.inf:
-                ask = f"from {low:g} to {high:g}"
-            raise WheelsetError(
-                f"{name} = {values[name][wrong].flat[0]:g} [{unit}]; it must be {ask}"
-            )

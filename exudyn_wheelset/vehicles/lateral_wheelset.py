@@ -91,7 +91,7 @@ class LateralWheelset(DynamicSystem):
 
     code: "mohan", "idealized" or "profiled". wheel, rail: profiles, names or paths, used by
     `profiled` only, with gauge [m], gauge_depth [m], inclination and tape_half_distance [m].
-    creep: a law's name; None takes that of the code. gyroscopic, inertial: False leaves out the
+    creep: a law's name or a function of one's own; None takes that of the code. gyroscopic, inertial: False leaves out the
     spin's gyroscopic terms, or m z'' and I_x phi'' in (3) and (4). representation: "cubic" or
     "polynomial" contact geometry (contact/piecewise.py).
     Raises WheelsetError for an unknown code, ContactError for profiles that do not meet.
@@ -111,7 +111,7 @@ class LateralWheelset(DynamicSystem):
         gauge_depth: float = 0.014,
         inclination: float = 1.0 / 40.0,
         tape_half_distance: float = 0.75,
-        creep: str | None = None,
+        creep: Any = None,
         gyroscopic: bool = True,
         inertial: bool | None = None,
         representation: str = "cubic",
@@ -125,7 +125,8 @@ class LateralWheelset(DynamicSystem):
         self.parameters = parameters or LateralParameters()
         self.name = f"lateral wheelset, {code}"
         self.scales = np.array([1e-3, 1e-3, 2e-2, 2e-2])
-        self.creep = creep or ("vermeulen-johnson" if code == "mohan" else "polach")
+        law = creep_law(creep or ("vermeulen-johnson" if code == "mohan" else "polach"))
+        self.creep = law.name
         given = self.parameters
         if code == "profiled":
             wheel_profile, rail_profile = load_profile(wheel), load_profile(rail)
@@ -145,8 +146,6 @@ class LateralWheelset(DynamicSystem):
         )
         self.representation = representation
         self.half_range = half_range
-        law = creep_law(self.creep).number
-        law_values = creep_parameters(self.creep, **law_parameters)
         p = np.zeros(kernel.PARAMETER_COUNT)
         p[kernel.MASS] = given.mass
         p[kernel.ROLL_INERTIA] = given.roll_inertia
@@ -162,15 +161,25 @@ class LateralWheelset(DynamicSystem):
         p[kernel.FRICTION] = given.friction
         p[kernel.SHEAR_MODULUS] = given.shear_modulus
         p[kernel.POISSON] = given.poisson
-        p[kernel.LAW] = law
+        p[kernel.LAW] = law.number
         p[kernel.GYROSCOPIC] = float(gyroscopic)
         p[kernel.INERTIAL] = float(code != "mohan" if inertial is None else inertial)
         p[kernel.CONICITY] = given.conicity
         if code != "profiled":
             p[kernel.FIXED_LATERAL_CURVATURE] = 0.5 / given.rail_head_radius
-        p[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(law_values)] = law_values
+        self._law, self._law_parameters = law, law_parameters
         self._p = p
+        self._put_law_parameters()
         self._sides = np.zeros((2, 12))
+
+    def _put_law_parameters(self) -> None:
+        values = creep_parameters(self._law, **self._law_parameters)
+        self._p[kernel.LAW_PARAMETERS : kernel.LAW_PARAMETERS + len(values)] = values
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # The address of a law of one's own holds in the process that made it only.
+        self.__dict__.update(state)
+        self._put_law_parameters()
 
     def _rolling_radius(self) -> float:
         """Radius [m] on which the centred wheelset rolls: its spin is V over this radius.
