@@ -321,13 +321,13 @@ def creep_force(
 ) -> tuple[Any, Any, Any]:
     """Give the creep forces and the spin moment (Fx, Fy, Mz) on the wheel.
 
-    law: its name, or a compiled function of one's own (`register_creep_law`).
-    Every other argument is a number or an array, broadcast together; the results are floats or
-    arrays of the common shape. creep_x, creep_y [-] and spin [1/m] are (wheel - rail)/V in the
-    contact frame (x rolling, y lateral tangent to the left, z from rail into wheel); a along rolling
-    and b lateral are the semi-axes of the patch [m], > 0; normal_force [N] (none below zero);
-    friction >= 0; shear_modulus [Pa] > 0; poisson from 0 to 0.5. Fx, Fy [N] oppose the creep, Mz
-    [N m] about z. `parameters` are those of the law, `creep_law(law).parameters`.
+    law: its name, or a compiled function of one's own (`register_creep_law`). Every other argument
+    is a number or an array, broadcast together; the results are floats or arrays of the common
+    shape. creep_x, creep_y [-] and spin [1/m] are (wheel - rail)/V in the contact frame (x rolling,
+    y lateral tangent to the left, z from rail into wheel); a along rolling and b lateral are the
+    semi-axes of the patch [m], > 0; normal_force [N] (none below zero); friction >= 0;
+    shear_modulus [Pa] > 0; poisson from 0 to 0.5. Fx, Fy [N] oppose the creep, Mz [N m] about z.
+    `parameters` are those of the law, `creep_law(law).parameters`.
     Raises WheelsetError for an unknown law or parameter and for values out of range or not finite.
     """
     description = creep_law(law)

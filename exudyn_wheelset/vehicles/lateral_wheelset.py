@@ -91,9 +91,9 @@ class LateralWheelset(DynamicSystem):
 
     code: "mohan", "idealized" or "profiled". wheel, rail: profiles, names or paths, used by
     `profiled` only, with gauge [m], gauge_depth [m], inclination and tape_half_distance [m].
-    creep: a law's name or a function of one's own; None takes that of the code. gyroscopic, inertial: False leaves out the
-    spin's gyroscopic terms, or m z'' and I_x phi'' in (3) and (4). representation: "cubic" or
-    "polynomial" contact geometry (contact/piecewise.py).
+    creep: a law's name or a function of one's own; None takes that of the code. gyroscopic,
+    inertial: False leaves out the spin's gyroscopic terms, or m z'' and I_x phi'' in (3) and (4).
+    representation: "cubic" or "polynomial" contact geometry (contact/piecewise.py).
     Raises WheelsetError for an unknown code, ContactError for profiles that do not meet.
     """
 
