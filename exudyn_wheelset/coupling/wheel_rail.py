@@ -32,6 +32,7 @@ from exudyn_wheelset.contact.forces import wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Velocity, side_of
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
+from exudyn_wheelset.coupling.addresses import address_of, integers_at, numbers_at
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity, elastic_forces
 from exudyn_wheelset.errors import ContactError
 
@@ -113,6 +114,23 @@ def body_wrench(q, v, first, table, state, part):
     return result[base], result[base + 1], result[base + 2]
 
 
+@compiled
+def wrench_at(block):
+    """As `body_wrench`, all arguments in the block of integers at this address.
+
+    Addresses of q, v, table and state, their lengths (q and v have the same), first, part.
+    """
+    q, v, table, state, size, table_size, state_size, first, part = integers_at(block, 9)
+    return body_wrench(
+        numbers_at(q, size),
+        numbers_at(v, size),
+        first,
+        numbers_at(table, table_size),
+        numbers_at(state, state_size),
+        part,
+    )
+
+
 @dataclass(eq=False)
 class WheelRailContact:
     """Contact of one wheelset in an Exudyn model: its state between evaluations.
@@ -180,24 +198,32 @@ class WheelRailContact:
     def load_function(self, part: int) -> Callable[[Any, float, Any], tuple[float, float, float]]:
         """User function of the force load (part 0) or the torque load (part 1), global axes.
 
-        A closure, because every attribute looked up here is looked up at each evaluation; the
-        coordinates are views of Exudyn's own vectors, used before anything can change them.
+        A closure, because every attribute looked up here is looked up at each evaluation. Exudyn
+        keeps its current coordinates where they are from one Assemble to the next (in its explicit
+        and implicit solvers, their Jacobians by differences included); an Assemble after items
+        have been added moves them, and changes their number.
         """
         table, state = self.table, self._state
-        coordinates = velocities = None
-        first = -1
+        block = np.array([0, 0, 0, 0, 0, len(table), len(state), -1, part], dtype=np.int64)
+        block[2:4] = address_of(table), address_of(state)
+        address = address_of(block)
+        known = -1
+        count: Callable[[], int]
+        moving = self.irregularity is not None or self.elasticity is not None
 
         def wrench(mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
-            nonlocal coordinates, velocities, first
-            if coordinates is None:
+            nonlocal known, count
+            if known < 0 or count() != known:
                 self.place(mbs)
-                first = self.first
-                coordinates = self._data.GetODE2Coordinates
-                velocities = self._data.GetODE2Coordinates_t
-            q = coordinates(_CURRENT, False)
-            if self.irregularity is not None or self.elasticity is not None:
-                self._move_rails(q, t)
-            return body_wrench(q, velocities(_CURRENT, False), first, table, state, part)
+                count = self._data.ODE2Size
+                known = count()
+                q = self._data.GetODE2Coordinates(_CURRENT, False)
+                v = self._data.GetODE2Coordinates_t(_CURRENT, False)
+                block[:2] = address_of(q), address_of(v)
+                block[4], block[7] = known, self.first
+            if moving:
+                self._move_rails(t)
+            return wrench_at(address)
 
         return wrench
 
@@ -210,8 +236,9 @@ class WheelRailContact:
         self._wrench(mbs, t, None)
         return self._state[_RATES].tolist()
 
-    def _move_rails(self, q: np.ndarray, t: float) -> None:
+    def _move_rails(self, t: float) -> None:
         if self.irregularity is not None:
+            q = self._data.GetODE2Coordinates(_CURRENT, False)
             station = self.reference[0] + q[self.first] + self.rail_speed * t
             motion = np.asarray(self.irregularity(station), dtype=float)
             if not np.array_equal(motion, self.rail_motion):
