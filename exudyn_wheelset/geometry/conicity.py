@@ -38,6 +38,8 @@ METHODS = ("integration", "linear-regression", "harmonic")
 # Delta_r below 10 nm is rounding of the profile's points. On a dead band (cylinder on rail) its
 # sign is arbitrary; a barrier no higher than this over the amplitude stops no oscillation.
 _RADIUS_RESOLUTION = 1.0e-8
+# The contact search ends within 1e-12 m on the profile; radii differ by less.
+_SEARCH_ROUNDING = 1.0e-12
 
 
 @dataclass(frozen=True)
@@ -248,7 +250,8 @@ class _RadiusDifference:
         height_low, area_low = self.at(np.maximum(c - amplitude, self.y[0]))
         mean = area_high - area_low
         # Symmetric data that end at the turning points: the mean is zero but for rounding.
-        mean[np.abs(mean) < 1.0e-12 * np.abs(self.height).max() * amplitude] = 0.0
+        rounding = _SEARCH_ROUNDING + 1.0e-12 * np.abs(self.height).max()
+        mean[np.abs(mean) < rounding * amplitude] = 0.0
         rate = height_high - height_low
         found = [c[mean == 0.0]]
         k = np.flatnonzero(mean[:-1] * mean[1:] < 0.0)

@@ -28,14 +28,24 @@ from exudyn_wheelset.contact.search import grid_foot
 # Local minima of the coarse scan within this height of the least are refined: the nodes, a
 # millimetre apart, see a minimum too high by at most 0.02 mm across, 0.1 mm along a steep flange.
 _SCAN_WINDOW = 2.0e-4
+# Where wheel and rail are of one radius (13 mm in 13 mm at the throat) they part by nanometres over
+# a millimetre, and several minima lie between two nodes: each of this many cells is looked at.
+_CELLS = 4
+# The scan takes the rail as straight between the grid's points: twice the sag of an arc, of the sum
+# of the second differences at both ends.
+_SAG = 0.125
+# Newton's steps to the foot on the rail, from the grid's guess some micrometres off: two leave a
+# rounding error.
+_STEPS_FOR_SIGN = 2
+_EXACT_STEPS = 12
 
 
 @compiled
-def _vertical_gap(table, side, arc, axle):
+def _vertical_gap(table, side, arc, axle, most_steps):
     """Height of the wheel's point above the rail (centre at z = 0), sine between the tangents."""
     _, py, pz, ny, nz, _, _, curvature = wheel_point(table, side, arc, axle)
     at = grid_foot(table, side, arc, axle)
-    for _ in range(12):
+    for _ in range(most_steps):
         y, y1, y2, z, z1, z2 = curve_point(table, side.rail, at)
         step = (py - y) / y1
         at += step
@@ -47,11 +57,11 @@ def _vertical_gap(table, side, arc, axle):
 
 
 @compiled
-def _refine(table, side, low, high, axle):
+def _minimum(table, side, low, high, axle):
     """Local minimum of the vertical gap in [low, high]: (arc, gap, rail arc)."""
     arc = 0.5 * (low + high)
     for _ in range(60):
-        _, sine, bend, _ = _vertical_gap(table, side, arc, axle)
+        _, sine, bend, _ = _vertical_gap(table, side, arc, axle, _EXACT_STEPS)
         if sine > 0.0:
             high = arc
         else:
@@ -63,7 +73,7 @@ def _refine(table, side, low, high, axle):
         arc = trial
         if change < 1.0e-12:
             break
-    gap, _, _, at = _vertical_gap(table, side, arc, axle)
+    gap, _, _, at = _vertical_gap(table, side, arc, axle, _EXACT_STEPS)
     return arc, gap, at
 
 
@@ -85,6 +95,7 @@ def least_gap(table, hand, cy, lx, ly, lz):
     flatness = block_row(table, side.fine_nodes, NODE_FLATNESS)
     heights = block_row(table, side.grid, GRID_HEIGHT)
     gaps = np.full(count, np.inf)
+    sags = np.zeros(count)
     lowest = np.inf
     q = 1.0 - lx * lx
     for node in range(count):
@@ -100,26 +111,43 @@ def least_gap(table, hand, cy, lx, ly, lz):
         cell = int(place)
         height = heights[cell] + (place - cell) * (heights[cell + 1] - heights[cell])
         gaps[node] = w * lz + r * (along * lz - root * ly) - height
+        last = min(cell + 2, len(heights) - 1)
+        bend = heights[cell - 1] - heights[cell] - heights[cell + 1] + heights[last]
+        sags[node] = _SAG * abs(bend)
         lowest = min(lowest, gaps[node])
     best = second = np.inf
     best_arc = best_at = second_arc = second_at = np.nan
     if lowest == np.inf:
         return best, best_arc, best_at, second, second_arc, second_at
+    marked = np.zeros(count + 1, dtype=np.bool_)
     for node in range(count):
-        gap = gaps[node]
-        before = gaps[node - 1] if node > 0 else np.inf
-        after = gaps[node + 1] if node + 1 < count else np.inf
+        gap = gaps[node] - sags[node]
+        before = gaps[node - 1] + sags[node - 1] if node > 0 else np.inf
+        after = gaps[node + 1] + sags[node + 1] if node + 1 < count else np.inf
         window = _SCAN_WINDOW / flatness[node]
-        if gap > lowest + window or gap > before or gap >= after:
+        marked[node] = gap <= lowest + window and gap <= before and gap < after
+    falls = True
+    for node in range(count - 1):
+        if not (marked[node] or marked[node + 1]):
+            falls = True
             continue
-        low = arcs[max(node - 1, 0)]
-        high = arcs[min(node + 1, count - 1)]
-        arc, gap, at = _refine(table, side, low, high, axle)
-        if gap < best:
-            second, second_arc, second_at = best, best_arc, best_at
-            best, best_arc, best_at = gap, arc, at
-        elif gap < second and arc != best_arc:
-            second, second_arc, second_at = gap, arc, at
+        low = arcs[node]
+        width = (arcs[node + 1] - low) / _CELLS
+        ends = not (marked[node + 1] or marked[node + 2])
+        for cell in range(_CELLS):
+            high = low + width
+            rises = (ends and cell == _CELLS - 1) or (
+                _vertical_gap(table, side, high, axle, _STEPS_FOR_SIGN)[1] > 0.0
+            )
+            if falls and rises:
+                arc, gap, at = _minimum(table, side, low, high, axle)
+                if gap < best:
+                    second, second_arc, second_at = best, best_arc, best_at
+                    best, best_arc, best_at = gap, arc, at
+                elif gap < second:
+                    second, second_arc, second_at = gap, arc, at
+            falls = not rises
+            low = high
     return best, best_arc, best_at, second, second_arc, second_at
 
 

@@ -3,9 +3,14 @@
 The contact point of a profiled wheel jumps where it goes over to the flange or across a change of
 curvature; roll angle and height stay continuous there but have a kink. So the range of y is cut
 at the jumps, and between them every quantity is a smooth function:
-- `cubic`: cubic splines through closely spaced points, as exact as the contact search;
-- `polynomial`: least-squares polynomials of the smallest degree that meets a tolerance, which is
-  the representation of the paper.
+- `cubic`: cubic splines through searched points, closer together where the contact moves fast;
+- `polynomial`: polynomials of the smallest degree that meets a tolerance, which is the
+  representation of the paper. A polynomial is a Chebyshev series through FIT points of its piece,
+  cut off behind its degree; a piece that no degree fits is cut where it misses most.
+
+Both are judged between the points they were made from, and cut or refined until they hold there.
+A residual is the largest deviation from the contact search at the points judged, plus half of the
+largest change of that deviation from one of them to the next, for what lies between.
 
 Columns: roll [rad], z [m], then for the left and the right side wheel_y [m], rail_y [m],
 angle [rad], radius [m]. Yaw is zero: that is what the paper tabulates.
@@ -13,15 +18,22 @@ angle [rad], radius [m]. Yaw is zero: that is what the paper tabulates.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+
+FloatArray = NDArray[np.float64]
+Search = Callable[[FloatArray], FloatArray]
 
 COLUMNS = (
     "roll",
@@ -35,38 +47,49 @@ COLUMNS = (
     "right_angle",
     "right_radius",
 )
-# A contact point that moves more than this between two close shifts has jumped [m].
-JUMP = 1.0e-3
-# A jump is located this closely [m]; of jumps nearer to each other than _CLOSEST one is kept (on
-# the steep start of a flange the contact may go over within nanometres of a fold).
-_BRACKET = 2.0e-12
-_CLOSEST = 2.0e-7
-# Pieces are sampled from this far beside a jump [m]: nearer, either branch may be found.
-_BESIDE = 5.0e-8
-_POINTS = [2, 3, 6, 7]
+# Places and angles of the contact are slopes of what roll, z and radius are: a hundred times the
+# tolerance leaves them 0.2 mm and 0.01 degrees.
+TOLERANCE_FACTORS = np.array([1, 1, 100, 100, 100, 1, 100, 100, 100, 1], dtype=float)
 REPRESENTATIONS = ("cubic", "polynomial")
+# A contact point that moves more than this from one search to the next may have jumped [m].
+JUMP = 1.0e-3
+# A jump is located this closely [m]; the search decides between two contacts by their distances,
+# which it knows to 1e-15 m and which differ by some tenths of the shift.
+_BRACKET = 2.0e-12
+# Pieces are searched from this far beside their ends [m]: nearer, either branch may be found.
+_BESIDE = 2.0e-11
+# Narrower pieces and cells are not cut [m].
+_NARROWEST = 1.0e-9
+# Twice as many points as coefficients: aliasing does not disturb the series' lower half.
+_FIT_POINTS = 20
+_JUDGED_POINTS = 49
+# A cut is made no nearer to an end than this share of the piece: where a contact point moves as
+# the root of the distance from a fold, pieces that grow tenfold are fitted by degree 9.
+_LEAST_SHARE = 0.1
 
 
 @dataclass(frozen=True)
 class PiecewiseGeometry:
     """Contact geometry over y in pieces.
 
-    jumps: (k,) shifts [m] where a contact point jumps; curves: PPoly with the values of COLUMNS;
-    degrees: highest degree in each piece between jumps; residuals: (pieces, 10) largest deviation
-    from the contact search in each piece.
+    jumps: (k,) shifts [m] where the contact jumps; breaks: (pieces + 1,) ends of the pieces [m];
+    curves: PPoly with the values of COLUMNS; degrees: of each piece; residuals: (pieces, 10)
+    largest deviation from the contact search in each piece, also between the points it was made
+    from, in the units of COLUMNS.
     """
 
-    jumps: np.ndarray
+    jumps: FloatArray
+    breaks: FloatArray
     curves: PPoly
     degrees: tuple[int, ...]
-    residuals: np.ndarray
+    residuals: FloatArray
 
-    def __call__(self, y, derivative: int = 0) -> np.ndarray:
+    def __call__(self, y, derivative: int = 0) -> FloatArray:
         """Values of COLUMNS at y [m], shape (..., 10), or their derivatives over y."""
         return self.curves(y, nu=derivative)
 
 
-def geometry_columns(geometry: ContactGeometry) -> np.ndarray:
+def geometry_columns(geometry: ContactGeometry) -> FloatArray:
     """Values (n, 10) of COLUMNS."""
     sides = (geometry.left, geometry.right)
     columns = [geometry.roll, geometry.z]
@@ -86,114 +109,173 @@ def piecewise_geometry(
 ) -> PiecewiseGeometry:
     """Return the contact geometry for |y| <= half_range [m] in pieces.
 
-    spacing [m] of the contact searches; tolerance [m or rad] for the polynomials, whose degree is
-    raised up to highest_degree to meet it (angles are allowed a hundred times as much, since they
-    are derivatives). Raises ContactError if a wheel leaves its rail within the range.
+    spacing [m] of the contact searches that look for jumps, and of the cubics at most; tolerance
+    [m or rad] for roll, height and radii, a hundred times as much for positions and angles; the
+    polynomials' degree is raised up to highest_degree to meet it, and pieces are cut. Every
+    residual is within the tolerance unless the contact search itself is rougher.
+    Raises ContactError if a wheel leaves its rail within the range.
     """
     if representation not in REPRESENTATIONS:
         raise WheelsetError(f"representation {representation!r}: use 'cubic' or 'polynomial'")
-    count = 2 * int(np.ceil(half_range / spacing)) + 1
-    y = np.linspace(-half_range, half_range, count)
-    values = geometry_columns(contact_geometry(wheelset, track, y))
-    moving = np.abs(np.diff(values[:, _POINTS], axis=0)).max(axis=1)
-    jumps: list[float] = []
-    for cell in np.flatnonzero(moving > JUMP):
-        jumps += _locate_jumps(wheelset, track, y[cell], y[cell + 1])
-    breaks = [y[0], *jumps, y[-1]]
-    pieces, degrees, residuals, knots = [], [], [], []
-    for low, high in pairwise(breaks):
-        inner = y[(y > low + 0.5 * spacing) & (y < high - 0.5 * spacing)]
-        # Beside a jump the contact moves fast: closer points there.
-        reach = min(2.0 * spacing, 0.5 * (high - low) - _BESIDE)
-        closer = _BESIDE + reach * np.array([0.0, 0.004, 0.02, 0.06, 0.14, 0.28, 0.5, 0.75, 1.0])
-        inner = inner[(inner > low + 1.1 * reach) & (inner < high - 1.1 * reach)]
-        samples = np.unique(np.concatenate([low + closer, inner, high - closer]))
-        exact = geometry_columns(contact_geometry(wheelset, track, samples))
-        if representation == "cubic":
-            spline = CubicSpline(samples, exact)
-            found = [(low, high, PPoly(spline.c, spline.x), 3, slice(None))]
-        else:
-            found = _polynomial_pieces(samples, exact, low, high, tolerance, highest_degree)
-        for start, _, curve, degree, part in found:
-            knots.append(start)
-            residuals.append(np.abs(curve(samples[part]) - exact[part]).max(axis=0))
-            pieces.append(curve)
-            degrees.append(degree)
-    breaks = [*knots, y[-1]]
+    if not 1 <= highest_degree < _FIT_POINTS:
+        raise WheelsetError(f"highest_degree = {highest_degree!r}: give 1 to {_FIT_POINTS - 1}")
+    allowed = tolerance * TOLERANCE_FACTORS
+
+    def search(y: FloatArray) -> FloatArray:
+        """Columns at y, any shape (...): (..., 10) in units of what is allowed."""
+        found = geometry_columns(contact_geometry(wheelset, track, y.ravel()))
+        return (found / allowed).reshape(*y.shape, len(COLUMNS))
+
+    y = np.linspace(-half_range, half_range, 2 * int(np.ceil(half_range / spacing)) + 1)
+    places = search(y)[:, [2, 3, 6, 7]] * allowed[2]
+    moved = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) > JUMP)
+    jumps = _locate_jumps(search, y[moved], y[moved + 1])
+    jumps = np.unique(jumps[np.isfinite(jumps)])
+    ends = np.concatenate([y[:1], jumps, y[-1:]])
+    jumps, pieces = _polynomials(search, ends, highest_degree)
+    if representation == "cubic":
+        ends = np.concatenate([y[:1], jumps, y[-1:]])
+        pieces = [_cubics(search, low, high, spacing) for low, high in pairwise(ends)]
+    breaks = np.array([*(piece.low for piece in pieces), y[-1]])
+    curves = _join([piece.curve for piece in pieces], breaks)
     return PiecewiseGeometry(
-        np.array(jumps), _join(pieces, breaks), tuple(degrees), np.array(residuals)
+        jumps,
+        breaks,
+        PPoly(curves.c * allowed, curves.x),
+        tuple(piece.degree for piece in pieces),
+        np.array([piece.residual for piece in pieces]) * allowed,
     )
 
 
-def _locate_jumps(wheelset: Wheelset, track: Track, low: float, high: float) -> list[float]:
-    """Shifts in (low, high) at which a contact point jumps, by bisection; fast motion is none."""
+class _Piece(NamedTuple):
+    """Curves from `low` to the next piece; residual (10,) in units of what is allowed."""
 
-    def points(y: float) -> np.ndarray:
-        return geometry_columns(contact_geometry(wheelset, track, [y]))[0, _POINTS]
+    low: float
+    curve: PPoly
+    degree: int
+    residual: FloatArray
 
-    first, last, at_low, at_high = low, high, points(low), points(high)
-    while high - low > _BRACKET:
+
+def _residual(miss: FloatArray) -> FloatArray:
+    """Largest deviation over points (..., points, 10), with what may lie between the points."""
+    between = np.abs(np.diff(miss, axis=-2)).max(axis=-2)
+    return np.abs(miss).max(axis=-2) + 0.5 * between
+
+
+def _locate_jumps(search: Search, low: FloatArray, high: FloatArray) -> FloatArray:
+    """The shift in each bracket at which the contact jumps, by bisection; NaN: it moves fast."""
+    low, high = low.copy(), high.copy()
+    if not low.size:
+        return low
+    at_low, at_high = search(low), search(high)
+    while np.any(high - low > _BRACKET):
         middle = 0.5 * (low + high)
-        here = points(middle)
-        if np.abs(here - at_low).max() > np.abs(at_high - here).max():
-            high, at_high = middle, here
-        else:
-            low, at_low = middle, here
-    if np.abs(at_high - at_low).max() < 0.1 * JUMP:
-        return []
-    before, after = low - _CLOSEST, high + _CLOSEST
-    return [
-        *(_locate_jumps(wheelset, track, first, before) if before > first else []),
-        0.5 * (low + high),
-        *(_locate_jumps(wheelset, track, after, last) if after < last else []),
-    ]
+        here = search(middle)
+        left = np.abs(here - at_low).max(axis=1) > np.abs(at_high - here).max(axis=1)
+        high[left], at_high[left] = middle[left], here[left]
+        low[~left], at_low[~left] = middle[~left], here[~left]
+    jumped = np.abs(at_high - at_low).max(axis=1) > 1.0
+    return np.where(jumped, 0.5 * (low + high), np.nan)
 
 
-def _polynomial_pieces(y, values, low, high, tolerance, highest_degree):
-    """Polynomials of the smallest degree in tolerance: (low, high, PPoly, degree, part of y).
-
-    Where the highest degree does not (a kink, a steep flange), the piece is cut at its worst point,
-    as long as both halves have points enough.
-    """
-    allowed = tolerance * np.array([1, 1, 100, 100, 100, 1, 100, 100, 100, 1])
-    pending = [(low, high, slice(0, len(y)))]
+def _polynomials(search: Search, ends: FloatArray, highest_degree: int):
+    """Jumps and polynomials (PPoly, degree, residual), residuals at most 1 unless too narrow."""
+    fit = np.cos(np.pi * (np.arange(_FIT_POINTS) + 0.5) / _FIT_POINTS)
+    places = np.unique(
+        np.concatenate([fit, np.linspace(-1.0, 1.0, _JUDGED_POINTS), [-0.999, 0.999]])
+    )
+    fitted = np.searchsorted(places, fit)
+    # Discrete orthogonality of the Chebyshev polynomials at the roots of the next one.
+    to_series = chebyshev.chebvander(fit, _FIT_POINTS - 1).T * (2.0 / _FIT_POINTS)
+    to_series[0] *= 0.5
+    at_places = chebyshev.chebvander(places, highest_degree)
+    jumps = list(ends[1:-1])
+    low, high = ends[:-1], ends[1:]
     done = []
-    while pending:
-        start, end, part = pending.pop()
-        for degree in range(1, min(highest_degree, part.stop - part.start - 1) + 1):
-            piece = _polynomial_piece(y[part], values[part], start, end, degree)
-            miss = np.abs(piece(y[part]) - values[part]) / allowed
-            if miss.max() <= 1.0:
-                break
-        least = highest_degree + 2
-        if miss.max() > 1.0 and part.stop - part.start >= 2 * least:
-            worst = part.start + int(np.argmax(miss.max(axis=1)))
-            cut = min(max(worst, part.start + least - 1), part.stop - least)
-            pending.append((y[cut], end, slice(cut, part.stop)))
-            pending.append((start, y[cut], slice(part.start, cut + 1)))
-        else:
-            done.append((start, end, piece, degree, part))
-    return done
+    while low.size:
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        inner = np.maximum(half - _BESIDE, 0.5 * half)
+        y = middle[:, None] + inner[:, None] * places
+        exact = search(y)
+        series = np.einsum("ij,pjc->pic", to_series, exact[:, fitted])[:, : highest_degree + 1]
+        pending = np.ones(len(low), dtype=bool)
+        for degree in range(1, highest_degree + 1):
+            n = degree + 1
+            miss = np.einsum("ij,pjc->pic", at_places[:, :n], series[:, :n]) - exact
+            residual = _residual(miss)
+            holds = residual.max(axis=1) <= 1.0
+            if degree == highest_degree:
+                holds |= high - low < _NARROWEST
+            for k in np.flatnonzero(pending & holds):
+                curve = _power_series(series[k, :n], middle[k], inner[k])
+                done.append(_Piece(low[k], curve, degree, residual[k]))
+            pending &= ~holds
+        rest = np.flatnonzero(pending)
+        step = np.abs(np.diff(exact[rest], axis=1)).max(axis=2)
+        widest = step.argmax(axis=1)
+        worst = np.abs(miss[rest]).max(axis=2).argmax(axis=1)
+        share = np.clip(places[worst], 2 * _LEAST_SHARE - 1.0, 1.0 - 2 * _LEAST_SHARE)
+        cut = middle[rest] + half[rest] * share
+        suspicious = np.flatnonzero(step.max(axis=1) > 2.0)
+        found = _locate_jumps(
+            search,
+            y[rest[suspicious], widest[suspicious]],
+            y[rest[suspicious], widest[suspicious] + 1],
+        )
+        is_jump = np.isfinite(found)
+        cut[suspicious[is_jump]] = found[is_jump]
+        jumps += list(found[is_jump])
+        low, high = np.concatenate([low[rest], cut]), np.concatenate([cut, high[rest]])
+    done.sort(key=lambda piece: piece.low)
+    return np.array(sorted(jumps)), done
 
 
-def _polynomial_piece(y, values, low, high, degree):
-    """Least-squares polynomials on [low, high] as one PPoly piece."""
-    coefficients = np.empty((degree + 1, 1, values.shape[1]))
-    for column, samples in enumerate(values.T):
-        fitted = np.polynomial.Polynomial.fit(y, samples, degree, domain=[y[0], y[-1]])
-        shifted = fitted(np.polynomial.Polynomial([low, 1.0]))
-        powers = np.zeros(degree + 1)
-        powers[: len(shifted.coef)] = shifted.coef
-        coefficients[:, 0, column] = powers[::-1]
-    return PPoly(coefficients, [low, high])
+def _power_series(series: FloatArray, middle: float, half: float) -> PPoly:
+    """Chebyshev series (degree + 1, 10) on middle +- half as one PPoly cell about the middle."""
+    powers = np.zeros((len(series), 1, series.shape[1]))
+    for column, coefficients in enumerate(series.T):
+        found = chebyshev.cheb2poly(coefficients)
+        powers[: len(found), 0, column] = found
+    powers /= half ** np.arange(len(series))[:, None, None]
+    return PPoly(powers[::-1], [middle, middle + half])
 
 
-def _join(pieces: list[PPoly], breaks: list[float]) -> PPoly:
+def _cubics(search: Search, low: float, high: float, spacing: float) -> _Piece:
+    """Cubic splines between two jumps, with cells halved until what lies within them fits."""
+    beside = min(_BESIDE, 0.25 * (high - low))
+    nodes = np.linspace(low + beside, high - beside, int(np.ceil((high - low) / spacing)) + 1)
+    values = search(nodes)
+    starts, widths = nodes[:-1], np.diff(nodes)
+    judged, exact = np.empty(0), np.empty((0, len(COLUMNS)))
+    while True:
+        added = (starts[:, None] + widths[:, None] * [0.25, 0.5, 0.75]).ravel()
+        judged, exact = _merged(judged, exact, added, search(added))
+        spline = CubicSpline(nodes, values)
+        miss = spline(judged) - exact
+        large = judged[np.abs(miss).max(axis=1) > 0.5]
+        cells = np.unique(np.searchsorted(nodes, large, side="right") - 1)
+        cells = cells[np.diff(nodes)[cells] > _NARROWEST]
+        if not cells.size:
+            return _Piece(low, PPoly(spline.c, spline.x), 3, _residual(miss))
+        half = 0.5 * np.diff(nodes)[cells]
+        starts = np.concatenate([nodes[cells], nodes[cells] + half])
+        widths = np.concatenate([half, half])
+        nodes, values = _merged(nodes, values, starts[len(cells) :], search(starts[len(cells) :]))
+
+
+def _merged(x: FloatArray, values: FloatArray, other_x: FloatArray, other_values: FloatArray):
+    """Two tables over x as one, in order."""
+    x = np.concatenate([x, other_x])
+    order = np.argsort(x, kind="stable")
+    return x[order], np.concatenate([values, other_values])[order]
+
+
+def _join(pieces: list[PPoly], breaks: FloatArray) -> PPoly:
     """One PPoly of all pieces, whose first and last cells reach the jumps."""
     degree = max(piece.c.shape[0] for piece in pieces)
     cells, knots = [], [breaks[0]]
     for piece, low, high in zip(pieces, breaks[:-1], breaks[1:], strict=True):
-        inner = piece.x[(piece.x > low) & (piece.x < high)]
+        inner = piece.x[1:-1]
         cells.append(_cells(piece, np.concatenate([[low], inner]), degree))
         knots.extend([*inner, high])
     return PPoly(np.concatenate(cells, axis=1), np.array(knots))
