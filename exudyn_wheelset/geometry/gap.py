@@ -152,11 +152,27 @@ def least_gap(table, hand, cy, lx, ly, lz):
 
 
 @compiled
+def _slope_over_roll(table, hand, arc, cy, lx, ly, lz):
+    """Rate of the least distance as roll lifts the side [m/rad]: its point turns about the centre.
+
+    That another point becomes the least adds nothing (envelope).
+    """
+    _, py, pz, ny, nz, _, _, _ = wheel_point(
+        table, side_of(table, hand), arc, Axle(cy, 0.0, lx, ly, lz)
+    )
+    return py - cy - ny / nz * pz
+
+
+@compiled
 def gap_difference(table, y, roll, yaw):
-    """Least distance on the left minus that on the right [m], and the left one."""
+    """Least distance on the left minus that on the right [m], and its rate over roll [m/rad]."""
     lx = -math.sin(yaw) * math.cos(roll)
     ly = math.cos(yaw) * math.cos(roll)
     lz = math.sin(roll)
-    left = least_gap(table, 0, y, lx, ly, lz)[0]
-    right = least_gap(table, 1, -y, -lx, ly, -lz)[0]
-    return left - right, left
+    left, left_arc, _, _, _, _ = least_gap(table, 0, y, lx, ly, lz)
+    right, right_arc, _, _, _, _ = least_gap(table, 1, -y, -lx, ly, -lz)
+    if not (left < np.inf and right < np.inf):
+        return left - right, np.nan
+    slope = _slope_over_roll(table, 0, left_arc, y, lx, ly, lz)
+    slope += _slope_over_roll(table, 1, right_arc, -y, -lx, ly, -lz)
+    return left - right, slope

@@ -34,11 +34,11 @@ _ROLL_RANGE = 0.12
 # The bracket walks in small steps as far as flange contact rolls a wheelset, then in growing ones.
 _ROLL_STEP = 4.0e-4
 _WALKED_ROLL = 0.015
-# Both wheels turn about the centre, and the difference of the distances grows by the tape circles'
-# distance times the roll angle. On a steep flange it grows by less than this share of it and may
-# fall (r0 tan(contact angle) against that distance): there it may vanish at several angles, which
-# steps this small tell apart.
-_FLAT = 0.8
+# Where the contact turns steep (r0 tan(contact angle) against the tape circles' distance) the
+# difference of the distances falls with roll and may vanish at several angles. A step over which
+# it rises as its slopes at both ends say, but for this share, hides no such fold; others are cut,
+# down to a step that tells them apart.
+_STRAIGHT = 0.15
 _LEAST_ROLL_STEP = 5.0e-5
 _SIDE_WIDTH = 7
 
@@ -124,19 +124,23 @@ def _roll_root(table, y, yaw, guess):
     A steep flange may agree at several angles: the first one on the way from `guess` is taken.
     """
     near = before = guess
-    difference = gap_difference(table, y, guess, yaw)[0]
+    difference, slope_near = gap_difference(table, y, guess, yaw)
     direction = 1.0 if difference <= 0.0 else -1.0
     f_near = f_before = direction * difference
-    flat = _FLAT * (side_of(table, 0).tape + side_of(table, 1).tape)
     step = 0.5 * _ROLL_STEP
     while True:
         far = near + direction * step
-        f_far = direction * gap_difference(table, y, far, yaw)[0]
+        difference, slope_far = gap_difference(table, y, far, yaw)
+        f_far = direction * difference
         if not (-np.inf < f_near and -np.inf < f_far < np.inf) or step > _ROLL_RANGE:
             return np.nan
         walks = abs(near - guess) < _WALKED_ROLL
-        steep = f_far - f_near < flat * step
-        if walks and steep and step > _LEAST_ROLL_STEP:
+        mean = 0.5 * (slope_near + slope_far)
+        straight = (
+            min(slope_near, slope_far) > 0.0
+            and abs(f_far - f_near - mean * step) < _STRAIGHT * mean * step
+        )
+        if walks and not straight and step > _LEAST_ROLL_STEP:
             step = max(0.25 * step, _LEAST_ROLL_STEP)
             continue
         if f_far >= 0.0:
@@ -147,10 +151,10 @@ def _roll_root(table, y, yaw, guess):
                 near, f_near, far = before, f_before, crest
                 f_far = direction * gap_difference(table, y, far, yaw)[0]
                 break
-        before, f_before, near, f_near = near, f_near, far, f_far
+        before, f_before, near, f_near, slope_near = near, f_near, far, f_far, slope_far
         if not walks:
             step *= 1.5
-        elif not steep:
+        elif straight:
             step = min(2.0 * step, _ROLL_STEP)
     if direction > 0.0:
         low, f_low, high, f_high = near, f_near, far, f_far
