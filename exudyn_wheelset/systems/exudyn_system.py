@@ -120,6 +120,7 @@ class ExudynSystem(DynamicSystem):
         self._reference = layout.reference
         self._steady_velocities = layout.steady_velocities
         self.wheelset_names = tuple(layout.wheelsets)
+        self.stiff = bool(self.wheelsets)
         self.trucks = trucks_by_distance(layout.wheelsets)
         self._coordinates = np.zeros(self._order2)
         self._velocities = np.zeros(self._order2)

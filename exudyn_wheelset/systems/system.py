@@ -61,6 +61,7 @@ class DynamicSystem(ABC):
     displacement_indices  entries whose amplitude (half of peak to peak) is reported
     lateral_indices, yaw_indices  lateral displacement and yaw of each wheelset, in their order,
                           where the system knows its wheelsets
+    stiff                 whether it has oscillations far faster than its motion: elastic contact
     wheelset_names        labels of the wheelsets in the state names ("leading" of "leading: y
                           [m]"); empty where every body with y and yaw may be one
     trucks                labels of the wheelsets of each truck, by its name; empty for one truck
@@ -72,6 +73,7 @@ class DynamicSystem(ABC):
     displacement_indices: tuple[int, ...]
     lateral_indices: tuple[int, ...] = ()
     yaw_indices: tuple[int, ...] = ()
+    stiff: bool = False
     wheelset_names: tuple[str, ...] = ()
     trucks: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 

@@ -5,9 +5,15 @@ An orbit of x' = f(x; V) with period T is x(s T) for the phase s in [0, 1]:
     dx/ds = T f(x; V),   x(1) = x(0),   integral <x - x_ref, dx_ref/ds> ds = 0      (1)
 
 The last equation fixes the phase. On each of N mesh intervals x is a polynomial of degree m that
-satisfies (1) at the m Gauss points; it is held by its values at m + 1 equidistant points. The
-error falls with h^(m+1) along the orbit and with h^(2m) at mesh points, in period and in speed
-(de Boor and Swartz, SIAM J. Numer. Anal. 10 (1973) 582) as long as f is smooth.
+satisfies (1) at m nodes; it is held by its values at m + 1 equidistant points. The nodes are Gauss
+points: the error falls with h^(m+1) along the orbit and with h^(2m) at mesh points, in period and
+in speed (de Boor and Swartz, SIAM J. Numer. Anal. 10 (1973) 582) as long as f is smooth.
+
+Wheels bounce on the stiffness of their contact at 200 Hz and more, nearly undamped, while the
+vehicle hunts at a few Hz. Gauss points carry such an oscillation on from interval to interval,
+undamped and unresolved. For a `stiff` system the nodes are Radau's, the end of the interval among
+them (order h^(2m-1) at mesh points; Hairer and Wanner, Solving Ordinary Differential Equations
+II, section IV.5): they damp what the mesh does not resolve, so that the wheels follow the rails.
 
 Newton's correction is condensed interval by interval (Doedel, Keller, Kernevez, Int. J. Bif.
 Chaos 1 (1991) 745): the interior values are eliminated, so that every point of the orbit becomes
@@ -25,7 +31,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, basis_of, windows_of
+from exudyn_wheelset.stability.hunting.orbit import Basis, Orbit, OrbitError, basis_of, windows_of
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
 
 # One-sided difference step in scales, ten nanometres for a wheelset: above what a contact search
@@ -80,10 +86,10 @@ class Gradients:
     by_state: Array
     by_speed: Array
 
-    def on_mesh(self, mesh: Array, degree: int) -> Gradients:
-        """Interpolated linearly to the Gauss points of another mesh: good for Newton's steps,
+    def on_mesh(self, mesh: Array, nodes: Array) -> Gradients:
+        """Interpolated linearly to the nodes of another mesh: good for Newton's steps,
         not for Floquet multipliers. Beyond the ends the nearest value is taken."""
-        wanted = (mesh[:-1, None] + np.diff(mesh)[:, None] * basis_of(degree).gauss).ravel()
+        wanted = (mesh[:-1, None] + np.diff(mesh)[:, None] * nodes).ravel()
         right = np.clip(np.searchsorted(self.phases, wanted), 1, len(self.phases) - 1)
         gaps = self.phases[right] - self.phases[right - 1]
         weight = np.clip((wanted - self.phases[right - 1]) / gaps, 0.0, 1.0)
@@ -183,6 +189,10 @@ class Collocation:
             kind.jacobian is DynamicSystem.jacobian and kind.jacobians is DynamicSystem.jacobians
         )
 
+    def basis(self, degree: int) -> Basis:
+        """The polynomials of an interval at the nodes that suit the system."""
+        return basis_of(degree, self.system.stiff)
+
     def windows(self, orbit: Orbit) -> Array:
         """States of each interval (N, m + 1, n) in scales."""
         return windows_of(orbit.states / self.scales, orbit.degree)
@@ -214,7 +224,7 @@ class Collocation:
         the length of a direction a measure of the speed alone, which turns back at a fold.
         """
         degree = direction.orbit.shape[1] - 1
-        basis = basis_of(degree)
+        basis = self.basis(degree)
         widths = np.diff(mesh)
         gram = basis.values.T @ (basis.weights[:, None] * basis.values)
         weighted = np.einsum("i,jk,ikn->ijn", widths, gram, direction.orbit)
@@ -238,37 +248,37 @@ class Collocation:
 
     def phase(self, orbit: Orbit) -> Functional:
         """The form <., dx_ref/ds> of the phase condition about the orbit as reference."""
-        basis = basis_of(orbit.degree)
+        basis = self.basis(orbit.degree)
         slopes = np.einsum("kj,ijn->ikn", basis.slopes, self.windows(orbit))
         row = np.einsum("k,kj,ikn->ijn", basis.weights, basis.values, slopes)
         return Functional(row / max(float(np.linalg.norm(row)), 1e-300), 0.0, 0.0)
 
     def defects(self, orbit: Orbit) -> Array:
-        """What (1) lacks at the Gauss points (N, m, n), times the interval's width, in scales.
+        """What (1) lacks at the nodes (N, m, n), times the interval's width, in scales.
 
         Raises OrbitError with contact_lost if f is not finite somewhere on the orbit.
         """
-        rates = self._rates(self._gauss_states(orbit), orbit.speed)
-        basis = basis_of(orbit.degree)
+        rates = self._rates(self._node_states(orbit), orbit.speed)
+        basis = self.basis(orbit.degree)
         slopes = np.einsum("kj,ijn->ikn", basis.slopes, self.windows(orbit))
         widths = np.diff(orbit.mesh)[:, None, None]
         return slopes - widths * orbit.duration * rates.reshape(slopes.shape)
 
     def condense(self, orbit: Orbit) -> Condensed:
-        """Newton's equations at the orbit: one Jacobian of f at every Gauss point."""
+        """Newton's equations at the orbit: one Jacobian of f at every node."""
         return self.assemble(orbit, self.gradients(orbit))
 
     def gradients(self, orbit: Orbit) -> Gradients:
-        """f and its derivatives at the Gauss points of an orbit; raises OrbitError."""
-        states = self._gauss_states(orbit)
+        """f and its derivatives at the nodes of an orbit; raises OrbitError."""
+        states = self._node_states(orbit)
         rates = self._rates(states, orbit.speed)
         if self._differences:
             by_state = self._forward_differences(states, orbit.speed, rates)
         else:
             by_state = self._jacobians(states, orbit.speed)
         by_speed = self._along_speed(states, orbit.speed, rates, by_state)
-        basis = basis_of(orbit.degree)
-        phases = orbit.mesh[:-1, None] + np.diff(orbit.mesh)[:, None] * basis.gauss
+        basis = self.basis(orbit.degree)
+        phases = orbit.mesh[:-1, None] + np.diff(orbit.mesh)[:, None] * basis.nodes
         return Gradients(phases.ravel(), rates, by_state, by_speed)
 
     def _along_speed(self, states: Array, speed: float, rates: Array, by_state: Array) -> Array:
@@ -287,11 +297,11 @@ class Collocation:
         return (change - np.einsum("kij,kj->ki", by_state, carried)) / step
 
     def assemble(self, orbit: Orbit, gradients: Gradients) -> Condensed:
-        """Newton's equations from gradients given at the Gauss points of the orbit.
+        """Newton's equations from gradients given at the nodes of the orbit.
 
         Raises OrbitError if an interval's equations are singular.
         """
-        basis = basis_of(orbit.degree)
+        basis = self.basis(orbit.degree)
         intervals, degree, size = len(orbit.mesh) - 1, orbit.degree, len(self.scales)
         widths = np.repeat(np.diff(orbit.mesh), degree)
         jacobians = gradients.by_state * (orbit.duration * widths)[:, None, None]
@@ -359,9 +369,9 @@ class Collocation:
             result[:, :, column] = (self._rates(shifted, speed) - rates) / FORWARD_STEP
         return result
 
-    def _gauss_states(self, orbit: Orbit) -> Array:
+    def _node_states(self, orbit: Orbit) -> Array:
         windows = windows_of(orbit.states, orbit.degree)
-        values = np.einsum("kj,ijn->ikn", basis_of(orbit.degree).values, windows)
+        values = np.einsum("kj,ijn->ikn", self.basis(orbit.degree).values, windows)
         return values.reshape(-1, windows.shape[2])
 
     def _rates(self, states: Array, speed: float) -> Array:

@@ -340,7 +340,7 @@ class _Follower:
         orbit = base.orbit.on_mesh(mesh)
         ahead = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
         tangent = _unit(equations, mesh, equations.difference(ahead, orbit))
-        gradients = base.condensed.gradients.on_mesh(mesh, orbit.degree)
+        gradients = base.condensed.gradients.on_mesh(mesh, equations.basis(orbit.degree).nodes)
         self.base = _Base(orbit, equations.assemble(orbit, gradients), tangent)
 
     def _over_limits(self, orbit: Orbit, size: float) -> str:

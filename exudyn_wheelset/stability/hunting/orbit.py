@@ -34,27 +34,33 @@ class OrbitError(AnalysisError):
 
 @dataclass(frozen=True)
 class Basis:
-    """Lagrange basis on m + 1 equidistant points of [0, 1], taken at the m Gauss points."""
+    """Lagrange basis on m + 1 equidistant points of [0, 1], taken at m Gauss or Radau nodes."""
 
     points: Array
-    gauss: Array
+    nodes: Array
     weights: Array
     values: Array
     slopes: Array
     barycentric: Array
 
 
-@lru_cache(maxsize=8)
-def basis_of(degree: int) -> Basis:
+@lru_cache(maxsize=16)
+def basis_of(degree: int, stiff: bool = False) -> Basis:
+    """Basis of a degree m at the m Gauss points, or at the Radau nodes for stiff equations."""
     points = np.arange(degree + 1) / degree
-    roots, weights = np.polynomial.legendre.leggauss(degree)
-    gauss = 0.5 * (1.0 + roots)
+    # The nodes are the roots of P_m, or of P_m - P_(m-1), which has one at the right end.
+    legendre = np.zeros(degree + 1)
+    legendre[degree], legendre[degree - 1] = 1.0, -float(stiff)
+    nodes = 0.5 * (1.0 + np.sort(np.polynomial.legendre.legroots(legendre).real))
+    if stiff:
+        nodes[-1] = 1.0
+    weights = np.linalg.solve(np.vander(nodes, increasing=True).T, 1.0 / np.arange(1, degree + 1))
     vandermonde = np.linalg.inv(np.vander(points, increasing=True))
     powers = np.arange(degree + 1)
-    values = gauss[:, None] ** powers @ vandermonde
-    slopes = (powers * gauss[:, None] ** np.maximum(powers - 1, 0)) @ vandermonde
+    values = nodes[:, None] ** powers @ vandermonde
+    slopes = (powers * nodes[:, None] ** np.maximum(powers - 1, 0)) @ vandermonde
     signs = np.array([(-1.0) ** j * comb(degree, j) for j in range(degree + 1)])
-    return Basis(points, gauss, 0.5 * weights, values, slopes, signs)
+    return Basis(points, nodes, weights, values, slopes, signs)
 
 
 @dataclass(frozen=True, eq=False)
