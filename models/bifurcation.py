@@ -39,6 +39,7 @@ from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch, column_index
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
@@ -97,7 +98,7 @@ def follow(
     """
     low, high = speeds or (RANGE[0] * hopf.speed, RANGE[1] * hopf.speed)
     branch = limit_cycles(system, hopf, (low, high), progress=progress, **settings)
-    if branch.reason.startswith("no convergence") and "intervals" not in settings:
+    if branch.outcome.ending is Ending.ORBIT_LOST and "intervals" not in settings:
         finer = {**settings, "intervals": 3 * ContinuationSettings().intervals // 2}
         other = limit_cycles(system, hopf, (low, high), progress=progress, **finer)
         branch = max(branch, other, key=len)
@@ -325,7 +326,7 @@ def _compute(arguments: argparse.Namespace) -> dict[str, Any]:
     files = []
     if branch is not None:
         files.append(branch.save(arguments.out / f"{stem}.npz"))
-        if not numbers["reason"].startswith("interrupted"):
+        if branch.outcome.ending is not Ending.INTERRUPTED:
             files += _simulate(arguments, system, hopf, branch, numbers, stem)
     write_json(arguments.out / f"{stem}.json", numbers, **about, system=system.measures())
     if files:

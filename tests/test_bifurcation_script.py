@@ -107,7 +107,7 @@ def test_json_holds_the_numbers_and_nothing_else(script, capsys, tmp_path):
     }
     assert numbers["hopf"][0] == pytest.approx(38.8, rel=0.06)
     assert numbers["method"] == "continuation" and numbers["points"] == 4
-    assert numbers["reason"] == "the maximum of 4 points was reached"
+    assert numbers["reason"] == "the maximum of points was reached: 4"
     assert (tmp_path / "bifurcation_paper-lateral-1.png").stat().st_size > 1e4
     record = json.loads((tmp_path / "bifurcation_paper-lateral-1.json").read_text())
     assert record["numbers"] == numbers

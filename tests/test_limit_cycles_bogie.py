@@ -54,7 +54,7 @@ def simulated():
 def test_diagram(branch, hopf):
     assert hopf.speed == pytest.approx(68.64, abs=0.02)
     assert branch.hopf == (hopf.speed, hopf.frequency)
-    assert branch.reason == "the speed range was left at its upper end, 80 m/s"
+    assert branch.reason == "the speed range was left at its upper end: 80 m/s"
     (fold,) = branch.folds
     assert not np.any(branch.stable[: fold.index + 1])
     assert np.all(branch.stable[fold.index + 1 :])

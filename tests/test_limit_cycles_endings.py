@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset.errors import AnalysisError, ContactError
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
@@ -61,7 +62,7 @@ def follow(system, **settings):
 )
 def test_lost_contact_keeps_what_was_found(at_edge):
     branch = follow(normal_form(edge=0.9, at_edge=at_edge))
-    assert branch.reason.startswith("lost contact or derailment: ")
+    assert branch.outcome.ending is Ending.CONTACT_LOST
     assert branch.folds[0] == pytest.approx(-0.25, abs=1e-6)
     # Up to a step of 1e-4 of the largest one before the edge.
     assert 0.89 < branch.amplitude["x"].max() < 0.9
@@ -78,7 +79,7 @@ def test_amplitude_limit():
 def test_maximum_of_points():
     branch = follow(normal_form(), maximum_points=7)
     assert len(branch) == 7
-    assert branch.reason == "the maximum of 7 points was reached"
+    assert branch.reason == "the maximum of points was reached: 7"
     with pytest.raises(AnalysisError, match="no limit cycle of the branch is stable"):
         branch.lowest_stable()
 
@@ -86,7 +87,7 @@ def test_maximum_of_points():
 def test_speed_range_left_at_the_lower_end():
     hopf = hopf_points(normal_form(), -0.45, 0.5)[0]
     branch = limit_cycles(normal_form(), hopf, (-0.1, 0.5))
-    assert branch.reason == "the speed range was left at its lower end, -0.1 m/s"
+    assert branch.reason == "the speed range was left at its lower end: -0.1 m/s"
     assert branch.speed[-1] == pytest.approx(-0.1, abs=1e-12)
     with pytest.raises(NoLimitCycleError) as caught:
         nonlinear_critical_speed(normal_form(), low=-0.1, high=0.5, hopf=hopf)
@@ -98,13 +99,13 @@ def test_no_convergence_at_the_smallest_step():
         return np.random.default_rng(int(1e9 * states[0, 0] % 1e9)).normal(size=states.shape)
 
     branch = follow(normal_form(edge=0.8, at_edge=jump))
-    assert branch.reason.startswith("no convergence at the smallest step: ")
+    assert branch.outcome.ending is Ending.ORBIT_LOST
     assert branch.folds and branch.amplitude["x"].max() < 0.8
 
 
 def test_interrupted_branch_is_kept():
     branch = follow(normal_form(calls_left=4_000))
-    assert branch.reason == "interrupted by the user"
+    assert branch.outcome.ending is Ending.INTERRUPTED
     assert 3 < len(branch) < 25
 
 
@@ -126,13 +127,13 @@ def test_closed_branch():
         derivatives_function=derivatives,
     )
     branch = limit_cycles(system, [1.2, 0.0], (-1.0, 1.0), start_speed=0.0)
-    assert branch.reason == "the branch closed on itself"
+    assert branch.outcome.ending is Ending.CLOSED
     assert sorted(map(float, branch.folds)) == pytest.approx([-0.3, 0.3], abs=1e-6)
     assert {fold.side for fold in branch.folds} == {"lowest", "highest"}
 
 
 def test_no_orbit_to_begin_with():
-    with pytest.raises(AnalysisError, match="dying out"):
+    with pytest.raises(AnalysisError, match="died out"):
         limit_cycles(normal_form(), [0.1, 0.0], (-0.45, 0.5), start_speed=-0.2)
     hopf = hopf_points(normal_form(), -0.45, 0.5)[0]
     with pytest.raises(AnalysisError, match="widen the range"):
@@ -223,7 +224,7 @@ def test_interrupted_descent_goes_on_where_it_was(tmp_path):
     finished = [0]
     for calls in (9_000, 12_000, 15_000, 18_000):
         part = descend(normal_form(calls_left=calls), path)
-        if not part.reason.startswith("interrupted"):
+        if part.outcome.ending is not Ending.INTERRUPTED:
             break
         assert len(part.speeds) >= finished[-1]
         finished.append(len(part.speeds))
@@ -257,7 +258,7 @@ def test_descent_ends():
     with pytest.raises(AnalysisError, match="y = 12 mm"):
         quasi_static_descent(system, 0.3, -0.3, state=[0.9, 0.0])
     ended = quasi_static_descent(normal_form(), 0.2, 0.0, step=0.1, state=[0.9, 0.0])
-    assert ended.reason == "still hunting at the lower end, 0 m/s"
+    assert ended.reason == "still hunting at the lower end: 0 m/s"
     assert np.isnan(ended.speed) and len(ended.speeds) == 3
 
 

@@ -58,7 +58,7 @@ def test_every_cycle_lies_on_the_curve(branch):
     np.testing.assert_allclose(branch.period, 2 * np.pi / (1 + twist * (square - 0.5)), rtol=1e-7)
     # The peak of a cosine from samples a hundredth of a period apart, by parabolas: 1e-6.
     np.testing.assert_allclose(branch.amplitude["x"], scale * np.sqrt(square), rtol=2e-6)
-    assert branch.reason == "the speed range was left at its upper end, 0.4 m/s"
+    assert branch.reason == "the speed range was left at its upper end: 0.4 m/s"
     assert branch.speed[-1] == pytest.approx(0.4, abs=1e-12)
 
 

@@ -39,6 +39,7 @@ class Ending(Enum):
     CLOSED = "the branch closed on itself"
     MAXIMUM_POINTS = "the maximum of points was reached"
     ORBIT_LOST = "no convergence at the smallest step"
+    CONTACT_LOST = "lost contact or derailment"
     # A descent.
     JUMP_FOUND = "the jump was found"
     STILL_HUNTING = "still hunting at the lower end"

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.systems.system import Array
@@ -115,7 +116,8 @@ class Branch:
     folds           where the branch turns back, in the order of the points
     changes         other changes of stability
     hopf            (speed [m/s], frequency [Hz]) of the Hopf point it starts from, or None
-    reason          why the branch ends; with a start inside it, both ends
+    outcome         how the branch ends at its last point
+    first_outcome   how it ends at its first one, with a start inside it; else None
     method          "continuation"
     orbits          the motions themselves
     record          system, parameters, versions, settings, cost
@@ -130,13 +132,21 @@ class Branch:
     folds: list[Fold]
     changes: list[StabilityChange]
     hopf: tuple[float, float] | None
-    reason: str
+    outcome: Outcome
     orbits: list[Orbit]
+    first_outcome: Outcome | None = None
     method: str = "continuation"
     record: dict[str, Any] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.speed)
+
+    @property
+    def reason(self) -> str:
+        """Why the branch ends, in words; with a start inside it, both ends."""
+        if self.first_outcome is None:
+            return str(self.outcome)
+        return f"first point: {self.first_outcome}; last point: {self.outcome}"
 
     def orbit(self, index: int) -> Orbit:
         """The motion at a point of the branch."""
@@ -207,7 +217,10 @@ class Branch:
             **self.record,
             "kind": KIND,
             "method": self.method,
-            "reason": self.reason,
+            "outcomes": [
+                None if outcome is None else outcome.record()
+                for outcome in (self.first_outcome, self.outcome)
+            ],
             "displacements": list(self.amplitude.names),
             "hopf": self.hopf,
             "folds": [
@@ -239,7 +252,8 @@ class Branch:
             folds=[Fold(*entry) for entry in record["folds"]],
             changes=[StabilityChange(*entry) for entry in record["changes"]],
             hopf=tuple(record["hopf"]) if record["hopf"] else None,
-            reason=record["reason"],
+            outcome=Outcome.read(record["outcomes"][1]),
+            first_outcome=Outcome.read(record["outcomes"][0]) if record["outcomes"][0] else None,
             method=record["method"],
             record=record,
         )

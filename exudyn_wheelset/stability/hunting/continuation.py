@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.stability.hunting.collocation import (
     Collocation,
     Condensed,
@@ -120,8 +121,8 @@ def follow(
     speeds: tuple[float, float],
     settings: ContinuationSettings,
     report: Callable[[Point], None] | None = None,
-) -> tuple[list[Point], str]:
-    """Points of the branch through `orbit`, starting with it, and the reason why it ends.
+) -> tuple[list[Point], Outcome]:
+    """Points of the branch through `orbit`, starting with it, and how it ends.
 
     `heading` is a direction of growth, or +1.0 or -1.0 to set out to higher or lower speed. The
     branch ends where it leaves `speeds` (low, high) [m/s], at an amplitude limit, where the model
@@ -132,16 +133,16 @@ def follow(
     follower = _Follower(equations, speeds, settings, report)
     try:
         follower.begin(orbit, heading)
-        reason = ""
-        while not reason:
-            reason = follower.advance()
+        outcome = None
+        while outcome is None:
+            outcome = follower.advance()
     except OrbitError as error:
         if not follower.points:
             raise
-        reason = _failure(error)
+        outcome = _failure(error)
     except KeyboardInterrupt:
-        reason = "interrupted by the user"
-    return follower.points, reason
+        outcome = Outcome(Ending.INTERRUPTED)
+    return follower.points, outcome
 
 
 class _Follower:
@@ -175,24 +176,22 @@ class _Follower:
         self.step = 0.3 * self._largest_step()
         self.size = self.equations.size(orbit)
 
-    def advance(self) -> str:
-        """One step along the branch; a reason if the branch ends with it."""
+    def advance(self) -> Outcome | None:
+        """One step along the branch; an outcome if the branch ends with it."""
         settings = self.settings
         if len(self.points) >= settings.maximum_points:
-            return f"the maximum of {settings.maximum_points} points was reached"
+            return Outcome(Ending.MAXIMUM_POINTS, f"{settings.maximum_points}")
         largest = self._largest_step()
         self.step = min(self.step, largest)
         while True:
             try:
-                reason = self._try_step()
+                return self._try_step()
             except OrbitError as error:
                 if self.step < settings.smallest_step * largest:
                     return _failure(error)
                 self.step *= 0.4
-            else:
-                return reason
 
-    def _try_step(self) -> str:
+    def _try_step(self) -> Outcome | None:
         equations, settings, base = self.equations, self.settings, self.base
         length, tangent = self.step, base.tangent
         row = equations.inner(base.orbit.mesh, tangent)
@@ -232,15 +231,15 @@ class _Follower:
         self._keep(self._point(new))
         if end is not None:
             return self._left(end)
-        reason = self._over_limits(orbit, size)
-        if reason:
-            return reason
+        outcome = self._over_limits(orbit, size)
+        if outcome is not None:
+            return outcome
         effort = found.iterations + 3 * found.refreshed
         self.step *= 1.5 if effort <= 10 else 1.0 if effort <= 15 else 0.7
         intervals = self._intervals_wanted(self.points[-1].trivial_error)
         if len(self.points) % settings.adapt_every == 0 or intervals > len(orbit.mesh) - 1:
             self._adapt(intervals)
-        return ""
+        return None
 
     def _intervals_wanted(self, error: float) -> int:
         settings, count = self.settings, len(self.base.orbit.mesh) - 1
@@ -343,19 +342,19 @@ class _Follower:
         gradients = base.condensed.gradients.on_mesh(mesh, equations.basis(orbit.degree).nodes)
         self.base = _Base(orbit, equations.assemble(orbit, gradients), tangent)
 
-    def _over_limits(self, orbit: Orbit, size: float) -> str:
+    def _over_limits(self, orbit: Orbit, size: float) -> Outcome | None:
         settings = self.settings
         if self.limits:
             amplitude = orbit.half_peak_to_peak()
             for index, limit in self.limits:
                 if amplitude[index] > limit:
                     name = self.equations.system.state_names[index]
-                    return f"the amplitude limit was passed: {name} {amplitude[index]:.4g}"
+                    return Outcome(Ending.AMPLITUDE_LIMIT, f"{name} {amplitude[index]:.4g}")
         if size < 0.3 * self.size and size < 0.7 * settings.first_amplitude:
-            return f"the orbit shrank to an equilibrium (Hopf point) near {orbit.speed:.4f} m/s"
+            return Outcome(Ending.EQUILIBRIUM, f"near {orbit.speed:.4f} m/s")
         if self._is_back(orbit):
-            return "the branch closed on itself"
-        return ""
+            return Outcome(Ending.CLOSED)
+        return None
 
     def _is_back(self, orbit: Orbit) -> bool:
         """Whether the branch, after it went away, is next to its start and goes the same way."""
@@ -389,9 +388,9 @@ class _Follower:
             return self.low
         return None
 
-    def _left(self, end: float) -> str:
-        side = "lower" if end == self.low else "upper"
-        return f"the speed range was left at its {side} end, {end:g} m/s"
+    def _left(self, end: float) -> Outcome:
+        side = Ending.LOWER_END if end == self.low else Ending.UPPER_END
+        return Outcome(side, f"{end:g} m/s")
 
 
 def _parts(direction: Direction) -> tuple[Array, float, float]:
@@ -402,7 +401,5 @@ def _unit(equations: Collocation, mesh: Array, direction: Direction) -> Directio
     return direction * (1.0 / equations.norm(mesh, direction))
 
 
-def _failure(error: OrbitError) -> str:
-    if error.contact_lost:
-        return f"lost contact or derailment: {error}"
-    return f"no convergence at the smallest step: {error}"
+def _failure(error: OrbitError) -> Outcome:
+    return Outcome(Ending.CONTACT_LOST if error.contact_lost else Ending.ORBIT_LOST, str(error))

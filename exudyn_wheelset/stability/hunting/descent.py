@@ -25,6 +25,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.branch import NamedColumns
 from exudyn_wheelset.stability.hunting.settling import (
@@ -50,7 +51,7 @@ class Descent:
     states      (k, n) last state at each speed
     jumped      highest speed at which hunting died out [m/s]; nan while none has
     time        simulated in total [s]
-    reason      why it ended
+    outcome     how it ended; `reason` says it in words
     method      "descent"
     record      system, parameters, versions, settings
     """
@@ -62,9 +63,14 @@ class Descent:
     states: Array
     jumped: float
     time: float
-    reason: str
+    outcome: Outcome
     method: str = "descent"
     record: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def reason(self) -> str:
+        """Why it ended, in words."""
+        return str(self.outcome)
 
     @property
     def bracket(self) -> tuple[float, float]:
@@ -82,7 +88,7 @@ class Descent:
             **self.record,
             "kind": KIND,
             "method": self.method,
-            "reason": self.reason,
+            "outcome": self.outcome.record(),
             "jumped": None if np.isnan(self.jumped) else self.jumped,
             "time": self.time,
             "displacements": list(self.amplitude.names),
@@ -101,7 +107,7 @@ class Descent:
             **fields,
             jumped=np.nan if jumped is None else float(jumped),
             time=record["time"],
-            reason=record["reason"],
+            outcome=Outcome.read(record["outcome"]),
             record=record,
         )
 
@@ -160,7 +166,7 @@ def quasi_static_descent(
             if not len(run):
                 run.begin(state, disturbance)
                 run.write(state_file)
-            while not run.reason:
+            while run.outcome is None:
                 bar.set_postfix_str(run.progress())
                 run.advance()
                 run.write(state_file)
@@ -168,7 +174,7 @@ def quasi_static_descent(
         except KeyboardInterrupt:
             if not len(run):
                 raise
-            run.reason = "interrupted by the user; run again with the same state file to go on"
+            run.outcome = Outcome(Ending.INTERRUPTED, "run again with the same state file to go on")
     return run.result()
 
 
@@ -201,7 +207,7 @@ class _Run:
         self.states: list[Array] = []
         self.jumped = np.nan
         self.time = 0.0
-        self.reason = ""
+        self.outcome: Outcome | None = None
 
     def __len__(self) -> int:
         return len(self.speeds)
@@ -219,13 +225,13 @@ class _Run:
             self.settling,
         )
         verdict = motion.decide()
-        if verdict in ("dying out", "lost contact"):
+        if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
             raise AnalysisError(
-                f"{system.name} does not hunt at {speed:g} m/s: the motion is {verdict} after "
+                f"{system.name} does not hunt at {speed:g} m/s: {verdict.sentence} after "
                 f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; begin at a "
                 "higher speed or with a larger disturbance"
             )
-        self._keep(speed, motion, verdict == "settled")
+        self._keep(speed, motion, verdict is Ending.SETTLED)
 
     def advance(self) -> None:
         """Run the next speed, of the descent or of the bisection."""
@@ -237,15 +243,15 @@ class _Run:
             self.system, speed, self.states[last], self.periods[last], self.watch, self.settling
         )
         verdict = motion.decide()
-        if verdict == "lost contact":
+        if verdict is Ending.CONTACT_LOST:
             self.time += motion.time
-            self.reason = f"lost contact at {speed:.4f} m/s: {motion.failure}"
+            self.outcome = Outcome(Ending.CONTACT_LOST, f"at {speed:.4f} m/s: {motion.failure}")
             return
-        if verdict == "dying out":
+        if verdict is Ending.DIED_OUT:
             self.time += motion.time
             self.jumped = speed
         else:
-            self._keep(speed, motion, verdict == "settled")
+            self._keep(speed, motion, verdict is Ending.SETTLED)
         self._finish()
 
     def progress(self) -> str:
@@ -263,7 +269,7 @@ class _Run:
             states=np.array(self.states),
             jumped=float(self.jumped),
             time=self.time,
-            reason=self.reason,
+            outcome=self.outcome or Outcome(Ending.UNDECIDED, "the descent goes on"),
             record=self.record,
         )
 
@@ -305,9 +311,11 @@ class _Run:
         lowest = min(self.speeds)
         if np.isnan(self.jumped):
             if lowest <= self.low:
-                self.reason = f"still hunting at the lower end, {self.low:g} m/s"
+                self.outcome = Outcome(Ending.STILL_HUNTING, f"{self.low:g} m/s")
         elif lowest - self.jumped <= self.tolerance * (1.0 + 1e-9):
-            self.reason = f"jump found between {self.jumped:.4f} and {lowest:.4f} m/s"
+            self.outcome = Outcome(
+                Ending.JUMP_FOUND, f"between {self.jumped:.4f} and {lowest:.4f} m/s"
+            )
 
 
 def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:

@@ -21,6 +21,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
@@ -33,7 +34,7 @@ from exudyn_wheelset.stability.hunting.settling import (
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "disturbance runs"
-Outcome = Literal["hunts", "dies out", "lost contact"]
+Fate = Literal["hunts", "dies out", "lost contact"]
 
 # Growth of the block means over three blocks that decides for hunting before it has settled.
 GROWTH = 0.15
@@ -53,7 +54,7 @@ class CriticalDisturbances:
     runs        number of simulations
     time        simulated in total [s]
     direction   what was disturbed
-    reason      why it ended
+    outcome     how it ended; `reason` says it in words
     method      "disturbance runs"
     record      system, parameters, versions, settings
     """
@@ -65,16 +66,22 @@ class CriticalDisturbances:
     runs: int
     time: float
     direction: str
-    reason: str
+    outcome: Outcome
     method: str = "disturbance runs"
     record: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def reason(self) -> str:
+        """Why it ended, in words."""
+        return str(self.outcome)
 
     def save(self, path: str | Path) -> Path:
         """Write to one .npz file, atomically; returns the path."""
         record = {
             **self.record,
             "kind": KIND,
-            **{name: getattr(self, name) for name in ("runs", "time", "direction", "reason")},
+            "outcome": self.outcome.record(),
+            **{name: getattr(self, name) for name in ("runs", "time", "direction")},
         }
         arrays = {name: getattr(self, name) for name in _ARRAYS}
         return write_record(path, arrays, record)
@@ -84,8 +91,8 @@ class CriticalDisturbances:
         """The runs of a file; raises AnalysisError if it does not hold any."""
         arrays, record = read_record(path, KIND)
         fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
-        fields |= {name: record[name] for name in ("runs", "time", "direction", "reason")}
-        return cls(**fields, record=record)
+        fields |= {name: record[name] for name in ("runs", "time", "direction")}
+        return cls(**fields, outcome=Outcome.read(record["outcome"]), record=record)
 
     def plot(self, ax: Any, factor: float = 1.0, **style: Any) -> Any:
         """Draw the amplitudes at the edge as crosses; returns the axes."""
@@ -135,14 +142,14 @@ def critical_disturbance(
     watched = watched_index(system, watch)
     label = _label(system, direction)
     rows: list[tuple[float, float, float, float]] = []
-    runs, time, reason = 0, 0.0, "all speeds are finished"
+    runs, time, outcome = 0, 0.0, Outcome(Ending.FINISHED)
     try:
         for speed in tqdm(values, disable=not progress, unit="speed", desc="disturbances"):
             search = _Search(system, float(speed), direction, watched, settling)
             rows.append(search.bisect(smallest, largest, tolerance))
             runs, time = runs + search.runs, time + search.time
     except KeyboardInterrupt:
-        reason = "interrupted by the user"
+        outcome = Outcome(Ending.INTERRUPTED)
     table = np.array(rows).reshape(-1, 4)
     settings = {
         **asdict(settling),
@@ -159,7 +166,7 @@ def critical_disturbance(
         runs=runs,
         time=time,
         direction=label,
-        reason=reason,
+        outcome=outcome,
         record=describe(system, KIND, settings),
     )
 
@@ -187,26 +194,26 @@ class _Search:
         trials = largest * 0.7 ** np.arange(8)
         trials = trials[trials > smallest]
         for high in map(float, trials):
-            outcome, hunting = self.run(high)
-            if outcome != "dies out":
+            fate, hunting = self.run(high)
+            if fate != "dies out":
                 break
         else:
             return np.inf, largest, np.inf, np.nan
-        outcome, dying = self.run(smallest)
-        if outcome != "dies out":
+        fate, dying = self.run(smallest)
+        if fate != "dies out":
             return 0.0, 0.0, smallest, np.nan
         low = smallest
         while high - low > tolerance * high:
             middle = float(np.sqrt(low * high)) if high > 4.0 * low else 0.5 * (low + high)
-            outcome, means = self.run(middle)
-            if outcome == "dies out":
+            fate, means = self.run(middle)
+            if fate == "dies out":
                 low, dying = middle, means
             else:
                 high, hunting = middle, means
         return 0.5 * (low + high), low, high, _parting(dying, hunting)
 
-    def run(self, amplitude: float) -> tuple[Outcome, list[float]]:
-        """Outcome of one disturbance, and the amplitudes of the watched motion by blocks."""
+    def run(self, amplitude: float) -> tuple[Fate, list[float]]:
+        """What becomes of one disturbance, and the amplitudes of the watched motion by blocks."""
         self.runs += 1
         motion = Motion(
             self.system,
@@ -219,15 +226,17 @@ class _Search:
         while True:
             verdict = motion.advance()
             ended = motion.cycles >= self.settling.cycles
-            if verdict == "undecided" and not ended and not _grows(motion.means):
+            if verdict is Ending.UNDECIDED and not ended and not _grows(motion.means):
                 continue
-            outcome: Outcome = "hunts"
-            if verdict == "lost contact":
-                outcome = "lost contact"
-            elif verdict == "dying out" or (verdict == "undecided" and _shrinks(motion.means)):
-                outcome = "dies out"
+            fate: Fate = "hunts"
+            if verdict is Ending.CONTACT_LOST:
+                fate = "lost contact"
+            elif verdict is Ending.DIED_OUT or (
+                verdict is Ending.UNDECIDED and _shrinks(motion.means)
+            ):
+                fate = "dies out"
             self.time += motion.time
-            return outcome, motion.means
+            return fate, motion.means
 
 
 def _grows(means: list[float]) -> bool:

@@ -18,6 +18,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
 from exudyn_wheelset.stability.hunting.branch import Branch, Fold, NamedColumns, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
@@ -52,8 +53,8 @@ def limit_cycles(
     steadily. From a Hopf point the branch is followed one way, from elsewhere both ways.
     Settings are those of `ContinuationSettings`, whole or one by one (`intervals=40`).
 
-    A branch ends with a reason (`Branch.reason`) and keeps what was found. Raises AnalysisError if
-    there is no orbit to begin with.
+    A branch says how it ends (`outcome`, in words `reason`) and keeps what was found. Raises
+    AnalysisError if there is no orbit to begin with.
     """
     system = as_system(vehicle)
     low, high = map(float, speeds)
@@ -74,7 +75,8 @@ def limit_cycles(
                 mirror = mirror_of_mode(system, start.state, start.mode, start.speed)
             equations = Collocation(system, 1.0 / start.frequency, high - low, mirror)
             orbit, _, heading = hopf_start(equations, start, settings)
-            points, reason = follow(equations, orbit, heading, (low, high), settings, report)
+            points, outcome = follow(equations, orbit, heading, (low, high), settings, report)
+            first = None
             hopf: tuple[float, float] | None = (start.speed, start.frequency)
         else:
             if isinstance(start, Orbit):
@@ -94,7 +96,7 @@ def limit_cycles(
             if mirror is not None:
                 row = speed_row(orbit, system.size)
                 orbit = solve_orbit(equations, orbit, row, tolerance=settings.tolerance).orbit
-            points, reason = _both_ways(equations, orbit, (low, high), settings, report)
+            points, first, outcome = _both_ways(equations, orbit, (low, high), settings, report)
             hopf = None
     cost: dict[str, Any] = {
         "mirror_image": equations.mirror is not None,
@@ -103,14 +105,14 @@ def limit_cycles(
         "seconds": time.perf_counter() - begun,
     }
     record = describe(system, "continuation", {**settings.record(), "speeds": [low, high]})
-    return gather(system, points, hopf, reason, settings, {**record, "cost": cost})
+    return gather(system, points, hopf, (first, outcome), settings, {**record, "cost": cost})
 
 
 def gather(
     system: DynamicSystem,
     points: list[Point],
     hopf: tuple[float, float] | None,
-    reason: str,
+    outcomes: tuple[Outcome | None, Outcome],
     settings: ContinuationSettings,
     record: dict[str, Any],
 ) -> Branch:
@@ -148,7 +150,8 @@ def gather(
         folds=folds,
         changes=_stability_changes(points, settings.stability_margin),
         hopf=hopf,
-        reason=reason,
+        outcome=outcomes[1],
+        first_outcome=outcomes[0],
         orbits=[point.orbit.whole() for point in points],
         record=record,
     )
@@ -160,12 +163,12 @@ def _both_ways(
     speeds: tuple[float, float],
     settings: ContinuationSettings,
     report: Callable[[Point], None],
-) -> tuple[list[Point], str]:
-    down, reason = follow(equations, orbit, -1.0, speeds, settings, report)
-    if reason == "the branch closed on itself" or reason.startswith("interrupted"):
-        return down, reason
-    up, other = follow(equations, orbit, 1.0, speeds, settings, report)
-    return [*down[:0:-1], *up], f"first point: {reason}; last point: {other}"
+) -> tuple[list[Point], Outcome | None, Outcome]:
+    down, first = follow(equations, orbit, -1.0, speeds, settings, report)
+    if first.ending in (Ending.CLOSED, Ending.INTERRUPTED):
+        return down, None, first
+    up, last = follow(equations, orbit, 1.0, speeds, settings, report)
+    return [*down[:0:-1], *up], first, last
 
 
 def _stability_changes(points: list[Point], margin: float) -> list[StabilityChange]:

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
@@ -118,7 +119,7 @@ def nonlinear_critical_speed(
         state_file=state_file,
         progress=progress,
     )
-    if descent.reason.startswith("interrupted"):
+    if descent.outcome.ending is Ending.INTERRUPTED:
         raise KeyboardInterrupt(descent.reason)
     if np.isnan(descent.jumped):
         raise NoLimitCycleError(

@@ -17,11 +17,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
@@ -31,7 +31,6 @@ from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 SAMPLES = 64
 TREND = 8
-State = Literal["undecided", "settled", "dying out", "lost contact"]
 
 
 @dataclass(frozen=True)
@@ -91,7 +90,7 @@ class Motion:
         self.amplitudes = np.zeros(len(system.displacement_indices))
         self.failure = ""
 
-    def advance(self) -> State:
+    def advance(self) -> Ending:
         """Simulate one block and judge."""
         settling = self.settling
         span = (settling.block + 1) * self.period
@@ -100,10 +99,10 @@ class Motion:
             states = self.system.simulate(self.state, self.speed, times)
         except WheelsetError as error:
             self.failure = str(error)
-            return "lost contact"
+            return Ending.CONTACT_LOST
         if not np.all(np.isfinite(states)):
             self.failure = f"the motion at {self.speed:g} m/s is no longer finite"
-            return "lost contact"
+            return Ending.CONTACT_LOST
         self.state = states[-1].copy()
         self.time += span
         self.cycles += settling.block
@@ -118,35 +117,35 @@ class Motion:
         self.means.append(float(np.mean(amplitudes)))
         return self._judge()
 
-    def decide(self) -> State:
+    def decide(self) -> Ending:
         """Simulate until decided, at most the number of cycles allowed."""
         while True:
             verdict = self.advance()
-            if verdict != "undecided" or self.cycles >= self.settling.cycles:
+            if verdict is not Ending.UNDECIDED or self.cycles >= self.settling.cycles:
                 return verdict
 
-    def _judge(self) -> State:
+    def _judge(self) -> Ending:
         settling = self.settling
         # A motion that began smaller than the threshold of rest is measured by its beginning.
         rest = settling.rest * self.system.scales[self.watch]
         if self.means[-1] < min(rest, 0.2 * self.means[0]):
-            return "dying out"
+            return Ending.DIED_OUT
         if len(self.means) < 4:
-            return "undecided"
+            return Ending.UNDECIDED
         first, second, third, fourth = self.means[-4:]
         steps = second - first, third - second, fourth - third
         allowed = settling.tolerance * fourth
         ratios = [abs(b) / max(abs(a), 1e-3 * allowed) for a, b in pairwise(steps)]
         ratio = max(ratios)
         if ratio < 0.98 and abs(steps[2]) * max(1.0, ratio / (1.0 - ratio)) < allowed:
-            return "settled"
+            return Ending.SETTLED
         if max(abs(step) for step in steps) < 0.03 * allowed:
-            return "settled"
+            return Ending.SETTLED
         logs = np.diff(np.log(self.means[-4:]))
         steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
         if (steady and fourth < 0.5 * max(self.means)) or self._falls_away():
-            return "dying out"
-        return "undecided"
+            return Ending.DIED_OUT
+        return Ending.UNDECIDED
 
     def _falls_away(self) -> bool:
         """Whether the amplitude has fallen over TREND blocks, the faster the lower it is.
@@ -220,9 +219,9 @@ def orbit_near(
     period = period or typical_period(system, speed)
     motion = Motion(system, speed, state, period, index, settling or Settling())
     verdict = motion.decide()
-    if verdict in ("dying out", "lost contact"):
+    if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
         raise AnalysisError(
-            f"no limit cycle at {speed:g} m/s from this state: the motion is {verdict} after "
+            f"no limit cycle at {speed:g} m/s from this state: {verdict.sentence} after "
             f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; start from "
             "a larger disturbance or another speed"
         )
