@@ -1,5 +1,5 @@
 """Limit cycles beside an undamped oscillation fifty times as fast, as a wheel's bounce on its
-contact is beside hunting: the cycle must be that of the slow motion alone, to which theory leads."""
+contact is beside hunting: the cycle must be that of the slow motion alone, as theory has it."""
 
 import numpy as np
 import pytest
