@@ -80,6 +80,29 @@ class Profile:
         else:
             check_kind(self.name, self.kind, y, z)
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both have the same kind, curve and name."""
+        if not isinstance(other, Profile):
+            return NotImplemented
+        return self is other or self._identity == other._identity
+
+    def __hash__(self) -> int:
+        return hash(self._identity)
+
+    def __getstate__(self) -> dict[str, object]:
+        return {**self.__dict__, "_cache": {}}
+
+    @property
+    def _identity(self) -> tuple[object, ...]:
+        if "identity" not in self._cache:
+            points = (self.y.tobytes(), self.z.tobytes())
+            self._cache["identity"] = (
+                self.kind, self.is_mirrored, self.smoothing, *points, self.name
+            )  # fmt: skip
+        identity = self._cache["identity"]
+        assert isinstance(identity, tuple)
+        return identity
+
     def height(self, y: ArrayLike) -> FloatArray:
         """Height z of the curve [m] at y [m], any shape.
 

@@ -23,6 +23,7 @@ from scipy.integrate import solve_ivp
 
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.vehicles.description import Vehicle
 
 Array = np.ndarray
 
@@ -244,12 +245,18 @@ def newton_equilibrium(
 
 
 def as_system(vehicle: Any) -> DynamicSystem:
-    """The DynamicSystem of a vehicle: itself, or what its method `dynamic_system()` gives.
+    """The DynamicSystem of a vehicle: itself, built from its description, or what the method
+    `dynamic_system()` of an object gives.
 
     Raises AnalysisError for anything else.
     """
     if isinstance(vehicle, DynamicSystem):
         return vehicle
+    if isinstance(vehicle, Vehicle):
+        # Exudyn is loaded only where a model is built in it.
+        from exudyn_wheelset.systems.vehicle_system import vehicle_system
+
+        return vehicle_system(vehicle)
     maker = getattr(vehicle, "dynamic_system", None)
     if callable(maker):
         system = maker()

@@ -11,7 +11,8 @@ the same in the axes of both. A spring with the potential U = e^T K e/2, e = (d,
 by virtual work, with g = dU/de,
 
     force on the upper body      -A g_d, at the end of the other body than the axes' one,
-    moment on the upper body     -A J^-T g_theta, J^-T v = v +- theta x v/2 + theta x (theta x v)/12,
+    moment on the upper body     -A J^-T g_theta,
+                                 J^-T v = v +- theta x v/2 + theta x (theta x v)/12,
     on the lower body            the opposite, at the same point.
 
 The sign in J is + for axes of the lower body, - for the upper one's, and the term is 0 half way
@@ -396,11 +397,11 @@ def connection_forces(q, v, states, block):
                 pull = row[23] * along
                 energy += 0.5 * pull * along
                 if blow_off >= 0:
-                    drag, _ = curve_value(block, pool_start + blow_off, rate)
+                    resisting, _ = curve_value(block, pool_start + blow_off, rate)
                 else:
-                    drag = row[26] * rate
-                pull += drag
-                power += drag * rate
+                    resisting = row[26] * rate
+                pull += resisting
+                power += resisting * rate
             stop = int(row[STOP])
             if stop >= 0:
                 push, stored = curve_value(block, pool_start + stop, along)
@@ -435,7 +436,7 @@ def connection_forces(q, v, states, block):
             half = 0.5
             if whose == OF_UPPER:
                 half = -0.5
-            elif whose == OF_MIDDLE or whose == OF_TRACK:
+            elif whose != OF_LOWER:
                 half = 0.0
             tx, ty, tz = theta[0], theta[1], theta[2]
             mx, my, mz = g[3], g[4], g[5]

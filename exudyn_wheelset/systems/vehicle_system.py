@@ -1,0 +1,43 @@
+"""A vehicle as a system for the analyses: built in Exudyn, alone in its model."""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import exudyn as exu
+
+from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.vehicles.assemble import add_vehicle
+from exudyn_wheelset.vehicles.description import Vehicle
+
+_FIRST_SPEED = 20.0
+# The drive of a driven axle has a rate of some 8e3 1/s, beyond RK44 at ExudynSystem's own step.
+_DRIVEN_STEP = 1.0e-4
+
+
+def vehicle_system(vehicle: Vehicle, **options: Any) -> ExudynSystem:
+    """The vehicle alone in an Exudyn model; options are those of ExudynSystem."""
+    if any(axle.driven for axle in vehicle.wheelsets) and options.get("settings") is None:
+        options.setdefault("step", _DRIVEN_STEP)
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    items = add_vehicle(mbs, vehicle, _FIRST_SPEED, show=False, sensors=False)
+    options.setdefault("spinning_nodes", dict(items.radii))
+    options.setdefault("name", vehicle.name)
+    options.setdefault("parameters", numbers_of(vehicle))
+    return ExudynSystem(mbs, container, **options)
+
+
+def numbers_of(description: Any) -> Any:
+    """A description as plain dictionaries, lists and numbers, for records; profiles by name."""
+    if isinstance(description, Profile):
+        return description.name
+    if is_dataclass(description) and not isinstance(description, type):
+        entries = [entry for entry in fields(description) if not entry.name.startswith("_")]
+        content = {entry.name: numbers_of(getattr(description, entry.name)) for entry in entries}
+        return {"kind": type(description).__name__, **content}
+    if isinstance(description, tuple | list):
+        return [numbers_of(entry) for entry in description]
+    return description

@@ -1,0 +1,27 @@
+"""The connections of vehicles, one element a module, all behind one protocol (protocol.py)."""
+
+from exudyn_wheelset.vehicles.elements.air_spring import AirSpring
+from exudyn_wheelset.vehicles.elements.anti_roll_bar import AntiRollBar
+from exudyn_wheelset.vehicles.elements.axle_box import AxleBox
+from exudyn_wheelset.vehicles.elements.bump_stop import BumpStop
+from exudyn_wheelset.vehicles.elements.coil_spring import CoilSpring
+from exudyn_wheelset.vehicles.elements.damper import Damper, MaxwellDamper
+from exudyn_wheelset.vehicles.elements.protocol import Element, End, Law
+from exudyn_wheelset.vehicles.elements.spring import Bushing, Spring
+from exudyn_wheelset.vehicles.elements.traction_rod import TractionRod
+
+__all__ = [
+    "AirSpring",
+    "AntiRollBar",
+    "AxleBox",
+    "BumpStop",
+    "Bushing",
+    "CoilSpring",
+    "Damper",
+    "Element",
+    "End",
+    "Law",
+    "MaxwellDamper",
+    "Spring",
+    "TractionRod",
+]

@@ -1,0 +1,60 @@
+"""An air spring: a static spring, and vertically a Maxwell branch for the air in the pipe.
+
+The bellows' and reservoir's air together give the static stiffness; the pipe between them lets the
+reservoir take part only slowly, so that fast motion meets the stiffness k_z + k_surge with a loss
+around the frequency k_surge/(2 pi c_surge) (Berg, Vehicle System Dynamics 33 (2000) 272-284,
+without the mass of the air). Potential of the spring and of the branch, dissipation F s'.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from exudyn_wheelset.checking import numbers
+from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles.elements.damper import STROKE
+from exudyn_wheelset.vehicles.elements.protocol import (
+    Element,
+    Law,
+    Vector,
+    checked_damping,
+    checked_stiffness,
+)
+
+
+@dataclass(frozen=True)
+class AirSpring(Element):
+    """Static stiffness (x, y, z) [N/m] and damping [N s/m]; the surge's stiffness and damping.
+
+    surge_stiffness [N/m]: what fast vertical motion meets beyond the static stiffness;
+    surge_damping [N s/m]: of the pipe.
+    """
+
+    stiffness: Vector
+    surge_stiffness: float
+    surge_damping: float
+    damping: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
+            given = numbers(f"AirSpring: {what} (x, y, z)", getattr(self, what), 3, "SI")
+            named = zip("xyz", given, strict=True)
+            put(self, what, tuple(check(f"AirSpring: {what} {axis}", v) for axis, v in named))
+        surge = checked_stiffness("AirSpring: surge_stiffness", self.surge_stiffness)
+        put(self, "surge_stiffness", surge)
+        put(self, "surge_damping", checked_damping("AirSpring: surge_damping", self.surge_damping))
+
+    def laws(self) -> tuple[Law, ...]:
+        """A spring, and a Maxwell branch where the surge has both its numbers."""
+        spring = Law(kernel.SPRING, stiffness=self.stiffness, damping=self.damping)
+        if self.surge_stiffness == 0.0 or self.surge_damping == 0.0:
+            return (spring,)
+        branch = Law(
+            kernel.DIRECTED,
+            stiffness=(self.surge_stiffness, 0.0, 0.0),
+            damping=(self.surge_damping, 0.0, 0.0),
+            direction=(0.0, 0.0, 1.0),
+            state=STROKE,
+        )
+        return (spring, branch)

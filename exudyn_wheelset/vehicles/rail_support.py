@@ -1,0 +1,152 @@
+"""One wheelset on its rails under given loads of both wheels, rolling straight ahead.
+
+The rails' wrench about the wheelset's centre, with its creep forces at steady rolling, must carry
+the loads: F_z and M_x as asked, F_y = 0 (no spring pushes sideways), M_y = 0 (a free axle is
+neither driven nor braked). Four equations for height, roll, shift and spin; on like wheels under
+like loads shift and roll vanish and two are left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
+from exudyn_wheelset.contact.wheelset_contact import contact_forces
+from exudyn_wheelset.errors import ContactError
+from exudyn_wheelset.geometry.rigid import contact_geometry
+
+Array = np.ndarray
+
+# Creepages, and so the forces of a wheelset in steady rolling, do not depend on the speed.
+_SPEED = 10.0
+_DEEPEST = 0.01
+_STEPS = np.array([1e-8, 1e-8, 1e-6, 1e-7])
+
+
+@dataclass(frozen=True)
+class AxleRest:
+    """A wheelset at rest beside its rolling.
+
+    height [m] of the centre above the radius over the rail tops; shift y [m] and roll [rad];
+    radius [m]: V over the spin; wrench (6) [N, N m] of the rails; wheel_loads (2) [N]: vertical,
+    left and right.
+    """
+
+    height: float
+    shift: float
+    roll: float
+    radius: float
+    wrench: Array
+    wheel_loads: tuple[float, float]
+
+
+def rail_wrench(
+    wheelset: Wheelset, track: Track, contact: Contact, pose: Array, yaw: float = 0.0
+) -> tuple[Array, tuple[float, float]]:
+    """Wrench (6) and vertical wheel loads (2) at (height, roll, shift, radius) [m, rad]."""
+    height, roll, shift, radius = pose
+    spin = _SPEED / radius
+    level = np.cos(roll)
+    axis = np.array([-np.sin(yaw) * level, np.cos(yaw) * level, np.sin(roll)])
+    found = contact_forces(
+        wheelset,
+        track,
+        (0.0, shift, height, roll, 0.0, yaw),
+        (_SPEED, 0.0, 0.0, *(spin * axis)),
+        contact=contact,
+    )
+    loads = [
+        sum(patch.normal_force * patch.normal[2] - patch.fy * patch.normal[1] for patch in side)
+        for side in (found.left, found.right)
+    ]
+    return np.concatenate([found.force, found.moment]), (loads[0], loads[1])
+
+
+def rest_on_rails(
+    wheelset: Wheelset, track: Track, contact: Contact, loads: Array, driven: bool = False
+) -> AxleRest:
+    """Where the wheelset rolls straight ahead under vertical loads (left, right) [N].
+
+    A driven one has the spin V/radius of its drive. Where no shift balances unlike loads (cones),
+    it stays in the middle. Raises ContactError where the rails do not carry it.
+    """
+    geometry = contact_geometry(wheelset, track, [0.0])
+    half = wheelset.tape_half_distance
+    arms = (half + geometry.left.wheel_y[0], -half - geometry.right.wheel_y[0])
+    weight = float(loads[0] + loads[1])
+    tipping = float(loads[0] * arms[0] + loads[1] * arms[1])
+    if weight <= 0.0 or min(loads) < 0.0:
+        raise ContactError(
+            f"the wheels carry {loads[0]:.0f} N and {loads[1]:.0f} N: a wheel cannot pull at its "
+            "rail; check masses, places and loads"
+        )
+    radius = 0.5 * (geometry.left.radius[0] + geometry.right.radius[0])
+    if driven:
+        radius = wheelset.radius
+    touching = float(geometry.z[0])
+
+    def excess(penetration: float) -> float:
+        pose = np.array([touching - penetration, 0.0, 0.0, radius])
+        return float(rail_wrench(wheelset, track, contact, pose)[0][2]) - weight
+
+    highest = 1.0e-4
+    while excess(highest) < 0.0:
+        highest *= 2.0
+        if highest > _DEEPEST:
+            raise ContactError(
+                f"the rails do not carry {weight:.0f} N of one wheelset: check loads and "
+                "shear_modulus"
+            )
+    pose = np.array([touching - brentq(excess, 0.0, highest, xtol=1e-14), 0.0, 0.0, radius])
+    wrench, _ = rail_wrench(wheelset, track, contact, pose)
+    scale = np.array([weight, weight * half, weight, weight * radius])
+    asked = np.array([weight, tipping, 0.0, 0.0])
+
+    def left(trial: Array) -> Array:
+        found, _ = rail_wrench(wheelset, track, contact, trial)
+        return (found[[2, 3, 1, 4]] - asked) / scale
+
+    free = [0, 1, 2, 3]
+    lopsided = abs(wrench[3] - tipping) > 1e-9 * weight * half or abs(wrench[1]) > 1e-9 * weight
+    if not lopsided:
+        free = [0, 3]
+    if driven:
+        free.remove(3)
+    solved = _newton(left, pose, free)
+    if solved is None and lopsided:
+        solved = _newton(left, pose, [k for k in free if k != 2])
+    if solved is not None:
+        pose = solved
+    wrench, wheel_loads = rail_wrench(wheelset, track, contact, pose)
+    height, roll, shift, radius = (float(value) for value in pose)
+    return AxleRest(height, shift, roll, radius, wrench, wheel_loads)
+
+
+def _newton(left, pose: Array, free: list[int]) -> Array | None:
+    """Root over the entries `free` of a pose, None where there is none nearby."""
+    pose = pose.copy()
+    if not free:
+        return pose
+    for _ in range(40):
+        value = left(pose)[free]
+        slope = np.empty((len(free), len(free)))
+        for column, entry in enumerate(free):
+            shifted = pose.copy()
+            shifted[entry] += _STEPS[entry]
+            upper = left(shifted)[free]
+            shifted[entry] -= 2.0 * _STEPS[entry]
+            slope[:, column] = (upper - left(shifted)[free]) / (2.0 * _STEPS[entry])
+        try:
+            step = -np.linalg.solve(slope, value)
+        except np.linalg.LinAlgError:
+            return None
+        largest = np.max(np.abs(step) / np.array([1e-4, 1e-3, 1e-3, 1e-3])[free])
+        pose[free] += step * min(1.0, 1.0 / largest) if largest > 0.0 else 0.0
+        if abs(pose[2]) > 0.01 or not np.all(np.isfinite(pose)):
+            return None
+        if largest < 1e-9:
+            break
+    return pose if np.max(np.abs(left(pose)[free])) < 1e-8 else None

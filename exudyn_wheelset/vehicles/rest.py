@@ -1,0 +1,200 @@
+"""A vehicle at rest against the track while its wheelsets roll straight ahead.
+
+The wheelsets stand where their rails carry the wheels' loads (rail_support.py). A vehicle that is
+drawn loaded stands as drawn, its connections loaded by what balances the bodies (balance.py). One
+that is drawn by free lengths settles from there: Newton's method on the forces of the simulation's
+own kernels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from exudyn_wheelset.errors import ContactError, WheelsetError
+from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles.balance import balance, given_preloads, inertias_of, weights
+from exudyn_wheelset.vehicles.description import Axle, Vehicle
+from exudyn_wheelset.vehicles.rail_support import AxleRest, rail_wrench, rest_on_rails
+from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
+
+Array = np.ndarray
+_NEWTON_STEPS = 40
+
+
+@dataclass(frozen=True)
+class Rest:
+    """What assembling a vehicle needs of its equilibrium.
+
+    struts; preloads (m, 6): their forces in the drawing; centres (n, 3) [m]: reference positions
+    of the parts; pose (n, 6): their displacement and rotation vector at rest; drawn (n, 6): the
+    same where the struts have their preloads; axles: of each wheelset.
+    """
+
+    struts: list[Strut]
+    preloads: Array
+    centres: Array
+    pose: Array
+    drawn: Array
+    axles: list[AxleRest]
+
+
+def find_rest(vehicle: Vehicle) -> Rest:
+    """The vehicle at rest.
+
+    Raises WheelsetError for a vehicle that cannot stand, with the body, the direction and the
+    newtons, and ContactError for a wheelset that its rails do not carry.
+    """
+    centres = np.array([part.centre for part in vehicle.parts])
+    count = len(vehicle.wheelsets)
+    for k, axle in enumerate(vehicle.wheelsets):
+        centres[k, 2] = axle.wheelset.radius + _touching(vehicle, axle)
+    # The heights of the axles depend on their loads and shift the points of the connections.
+    for _ in range(3):
+        struts = struts_of(vehicle, centres)
+        given = given_preloads(vehicle, struts)
+        forces, supports, sunk = balance(vehicle, struts, centres, given)
+        axles = [
+            _stand(vehicle, axle, support)
+            for axle, support in zip(vehicle.wheelsets, supports, strict=True)
+        ]
+        moved = [
+            axle.wheelset.radius + found.height
+            for axle, found in zip(vehicle.wheelsets, axles, strict=True)
+        ]
+        change = np.abs(centres[:count, 2] - moved).max()
+        centres[:count, 2] = moved
+        if change < 1e-12:
+            break
+    struts = struts_of(vehicle, centres)
+    if vehicle.preload == "free":
+        return _settle(vehicle, struts, given, centres, sunk, axles)
+    pose = np.zeros((len(centres), 6))
+    for k, found in enumerate(axles):
+        pose[k, 1], pose[k, 3] = found.shift, found.roll
+    return Rest(struts, forces, centres, pose, pose, axles)
+
+
+def accelerations(vehicle: Vehicle, rest: Rest) -> Array:
+    """Accelerations (n, 6) [m/s^2, rad/s^2] left at rest, by the kernels of the simulation."""
+    forces = StaticForces(vehicle, rest.struts, rest.preloads, rest.centres, rest.drawn)(rest.pose)
+    for k, at_rest in enumerate(rest.axles):
+        forces[k] += at_rest.wrench
+    return forces / inertias_of(vehicle)
+
+
+def _stand(vehicle: Vehicle, axle: Axle, support: Array) -> AxleRest:
+    try:
+        return rest_on_rails(axle.wheelset, vehicle.track, vehicle.contact, support, axle.driven)
+    except ContactError as error:
+        raise ContactError(f"{vehicle.name}: wheelset {axle.name!r}: {error}") from error
+
+
+def _touching(vehicle: Vehicle, axle: Axle) -> float:
+    """Height [m] of the centre above the radius where both wheels just touch their rails."""
+    try:
+        return float(contact_geometry(axle.wheelset, vehicle.track, [0.0]).z[0])
+    except ContactError as error:
+        raise ContactError(f"{vehicle.name}: wheelset {axle.name!r}: {error}") from error
+
+
+class StaticForces:
+    """Forces and moments of connections, weights and loads on all parts, in any pose."""
+
+    def __init__(
+        self, vehicle: Vehicle, struts: list[Strut], preloads: Array, centres: Array, drawn: Array
+    ) -> None:
+        self._block, states = block_of(vehicle, struts, preloads, drawn, centres)
+        self._strokes = np.zeros(max(len(states), 1))
+        self._weights = weights(vehicle, centres)
+        self._drawn = drawn
+        # Elements that add their own items are known by their stiffness alone.
+        self._linear = [
+            (strut.lever(centres), strut.stiffness, preload)
+            for strut, preload in zip(struts, preloads, strict=True)
+            if strut.law is None
+        ]
+
+    def __call__(self, pose: Array) -> Array:
+        """Forces (n, 6) in a pose (n, 6) that lasts: moments in the parts' own axes."""
+        count = len(pose)
+        flat = np.ascontiguousarray(pose).ravel()
+        if int(self._block[kernel.H_STATES]):
+            self._strokes[:] = strokes_at(self._block, flat)
+        kernel.connection_forces(flat, np.zeros(6 * count), self._strokes, self._block)
+        start = int(self._block[kernel.H_FORCES])
+        forces = self._block[start : start + 6 * count].reshape(count, 6) + self._weights
+        for lever, stiffness, preload in self._linear:
+            strain = lever @ (pose - self._drawn).ravel()
+            forces += (lever.T @ (preload - stiffness @ strain)).reshape(-1, 6)
+        return forces
+
+
+def _settle(
+    vehicle: Vehicle,
+    struts: list[Strut],
+    preloads: Array,
+    centres: Array,
+    sunk: Array,
+    standing: list[AxleRest],
+) -> Rest:
+    """The vehicle of free lengths where it comes to rest, from the linear guess `sunk` (n, 6)."""
+    drawn = np.zeros((len(centres), 6))
+    pose = sunk.copy()
+    radii = []
+    for k, found in enumerate(standing):
+        pose[k, 1:] = found.shift, 0.0, found.roll, 0.0, 0.0
+        radii.append(found.radius)
+    forces_of = StaticForces(vehicle, struts, preloads, centres, drawn)
+    inertias = inertias_of(vehicle)
+    spins = len(vehicle.wheelsets)
+
+    def split(unknown: Array) -> tuple[Array, list[AxleRest]]:
+        """Pose and wheelsets; a wheelset's pitch stands for the change of its rolling radius."""
+        trial = unknown.reshape(-1, 6).copy()
+        axles = []
+        for k, axle in enumerate(vehicle.wheelsets):
+            yaw, roll = trial[k, 5], trial[k, 3]
+            height = centres[k, 2] + trial[k, 2] - axle.wheelset.radius
+            radius = radii[k] * (1.0 + (0.0 if axle.driven else trial[k, 4]))
+            at = np.array([height, roll, trial[k, 1], radius])
+            wrench, loads = rail_wrench(axle.wheelset, vehicle.track, vehicle.contact, at, yaw)
+            axles.append(AxleRest(height, trial[k, 1], roll, radius, wrench, loads))
+            trial[k, 3:] = Rotation.from_euler("ZX", [yaw, roll]).as_rotvec()
+        return trial, axles
+
+    def left(unknown: Array) -> Array:
+        trial, axles = split(unknown)
+        forces = forces_of(trial)
+        for k, at_rest in enumerate(axles):
+            forces[k] += at_rest.wrench
+        return (forces / inertias).ravel()
+
+    unknown = pose.ravel()
+    steps = np.full(unknown.size, 1e-7)
+    residual = left(unknown)
+    for _ in range(_NEWTON_STEPS):
+        slope = np.empty((unknown.size, unknown.size))
+        for column in range(unknown.size):
+            ahead, behind = unknown.copy(), unknown.copy()
+            ahead[column] += steps[column]
+            behind[column] -= steps[column]
+            slope[:, column] = (left(ahead) - left(behind)) / (2.0 * steps[column])
+        step = -np.linalg.lstsq(slope, residual, rcond=1e-12)[0]
+        # A wheel lifts off or digs in where a step leaves the thin layer of its penetration.
+        wheels = np.abs(step.reshape(-1, 6)[:spins, [2, 3]]).max(initial=0.0)
+        unknown = unknown + step * min(1.0, 5e-5 / wheels if wheels > 0.0 else 1.0)
+        residual = left(unknown)
+        if np.abs(step).max() < 1e-11:
+            break
+    if not np.abs(residual).max() < 1e-5:
+        worst = vehicle.parts[int(np.argmax(np.abs(residual))) // 6].name
+        raise WheelsetError(
+            f"{vehicle.name}: no equilibrium from its free lengths: {worst!r} is left with "
+            f"{np.abs(residual).max():.3g} m/s^2; draw it nearer to its place or check the offsets"
+        )
+    trial, axles = split(unknown)
+    return Rest(struts, preloads, centres, trial, drawn, axles)

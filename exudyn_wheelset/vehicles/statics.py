@@ -1,0 +1,106 @@
+"""How a vehicle stands on its rails: wheel loads, preloads of its connections, places of all parts.
+
+In a vehicle that is drawn loaded (`preload="drawing"`) the preloads at the drawn positions balance
+every body (balance.py); with `preload="free"` the connections are without force in the drawing, but
+for their offset, and the place of all bodies is found (rest.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from exudyn_wheelset.vehicles.description import Vehicle
+from exudyn_wheelset.vehicles.rest import accelerations, find_rest
+
+Array = np.ndarray
+
+
+class WheelLoads(NamedTuple):
+    """Vertical forces of the rails [N] on the left and the right wheel."""
+
+    left: float
+    right: float
+
+
+@dataclass(frozen=True)
+class StaticEquilibrium:
+    """A vehicle at rest against the track while its wheelsets roll straight ahead.
+
+    wheel_loads: of each wheelset by name; residual: greatest acceleration left of any part
+    [m/s^2, rad/s^2], from forces summed anew by the kernels of the simulation; preloads: force
+    [N] and moment [N m] (6) of each connection on its upper body, track frame, by name; positions:
+    centres (x, y, z) [m] and rotations: rotation vectors (3) [rad] of all parts by name; radii:
+    rolling radius V/spin [m] of each wheelset.
+    """
+
+    wheel_loads: Mapping[str, WheelLoads]
+    residual: float
+    preloads: Mapping[str, tuple[float, ...]]
+    positions: Mapping[str, tuple[float, float, float]]
+    rotations: Mapping[str, tuple[float, float, float]]
+    radii: Mapping[str, float]
+
+
+def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
+    """How the vehicle stands: wheel loads, preloads, places of all parts.
+
+    Raises WheelsetError for a vehicle that cannot stand, with the body, the direction and the
+    newtons, and ContactError for a wheelset that its rails do not carry.
+    """
+    rest = find_rest(vehicle)
+    parts = vehicle.parts
+    preloads: dict[str, Array] = {}
+    moved = (rest.pose - rest.drawn).ravel()
+    for strut, drawn in zip(rest.struts, rest.preloads, strict=True):
+        name = strut.connection.name
+        force = drawn.copy()
+        if strut.connection.preload is None or vehicle.preload == "free":
+            force -= strut.stiffness @ strut.lever(rest.centres) @ moved
+        preloads[name] = preloads.get(name, np.zeros(6)) + force
+    places = rest.centres + rest.pose[:, :3]
+    frozen = MappingProxyType
+    return StaticEquilibrium(
+        wheel_loads=frozen(
+            {
+                axle.name: WheelLoads(*at_rest.wheel_loads)
+                for axle, at_rest in zip(vehicle.wheelsets, rest.axles, strict=True)
+            }
+        ),
+        residual=float(np.abs(accelerations(vehicle, rest)).max()),
+        preloads=frozen({name: tuple(map(float, value)) for name, value in preloads.items()}),
+        positions=frozen(
+            {part.name: tuple(map(float, p)) for part, p in zip(parts, places, strict=True)}
+        ),
+        rotations=frozen(
+            {part.name: tuple(map(float, p[3:])) for part, p in zip(parts, rest.pose, strict=True)}
+        ),
+        radii=frozen(
+            {
+                axle.name: at_rest.radius
+                for axle, at_rest in zip(vehicle.wheelsets, rest.axles, strict=True)
+            }
+        ),
+    )
+
+
+def with_free_lengths(vehicle: Vehicle) -> Vehicle:
+    """The same vehicle described by free lengths: it settles to where it was drawn.
+
+    Each connection's offset becomes its preload over its stiffness, where it has any.
+    """
+    rest = find_rest(vehicle)
+    offsets: dict[str, Array] = {}
+    for strut, preload in zip(rest.struts, rest.preloads, strict=True):
+        if strut.connection.preload is None and strut.stiffness[:3, :3].any():
+            offset = np.linalg.lstsq(strut.stiffness[:3, :3], preload[:3], rcond=1e-12)[0]
+            offsets[strut.connection.name] = offset
+    connections = tuple(
+        replace(one, offset=tuple(map(float, offsets.get(one.name, np.zeros(3)))))
+        for one in vehicle.connections
+    )
+    return replace(vehicle, connections=connections, preload="free")

@@ -1,0 +1,203 @@
+"""The laws of all connections of a vehicle with their ends on the bodies: what statics and kernel
+work on.
+
+A strut joins a point of a lower body to a point of an upper one. Its points are those of the
+drawing; at a wheelset both are moved along by as much as its axle really stands beside the drawn
+place, so a spring on an axle box of no size still begins with no length.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles.description import GROUND, Axle, Connection, Vehicle
+from exudyn_wheelset.vehicles.elements.protocol import Law
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Strut:
+    """One law between two bodies.
+
+    connection; law: None for an element that adds its own items; lower, upper: numbers of the
+    bodies among the vehicle's parts, their count for the ground; axes: kernel.OF_LOWER, ...;
+    points (2, 3) [m]: of both ends at rest, track frame; stiffness (6, 6): against loads that stay,
+    track axes.
+    """
+
+    connection: Connection
+    law: Law | None
+    lower: int
+    upper: int
+    axes: int
+    points: Array
+    stiffness: Array
+
+    def lever(self, centres: Array) -> Array:
+        """(6, 6 (n + 1)) from displacements and rotations of all bodies to its strain."""
+        count = len(centres)
+        matrix = np.zeros((6, 6 * (count + 1)))
+        for sign, body, point in zip(
+            (-1.0, 1.0), (self.lower, self.upper), self.points, strict=True
+        ):
+            arm = np.zeros(3) if body == count else point - centres[body]
+            place = matrix[:, 6 * body : 6 * body + 6]
+            place[:3, :3] += sign * np.eye(3)
+            place[:3, 3:] -= sign * cross_matrix(arm)
+            place[3:, 3:] += sign * np.eye(3)
+        return matrix[:, : 6 * count]
+
+    def moved(self, shift: Array) -> Strut:
+        """The strut of a vehicle that is put elsewhere by `shift` (3) [m]."""
+        return replace(self, points=self.points + shift)
+
+
+def cross_matrix(vector: Array) -> Array:
+    """Matrix of the cross product from the left."""
+    x, y, z = vector
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+
+
+def struts_of(vehicle: Vehicle, centres: Array) -> list[Strut]:
+    """All struts; centres (n, 3) [m]: where the parts really are at rest."""
+    number = {part.name: k for k, part in enumerate(vehicle.parts)}
+    number[GROUND] = len(number)
+    axles = {k for k, part in enumerate(vehicle.parts) if isinstance(part, Axle)}
+    found = []
+    for one in vehicle.connections:
+        ends = (number[one.lower], number[one.upper])
+        points = np.array(one.element.places(one.at))
+        moved = next((end for end in ends if end in axles), None)
+        if moved is not None:
+            # Onto the axle: places off it by rounding, and the wheelset's real height.
+            own = points[ends.index(moved)].copy()
+            points[:, [0, 2]] += (centres[moved] - own)[[0, 2]]
+        axes = _axes(*ends, axles, len(centres))
+        if not hasattr(one.element, "laws"):
+            stiffness = np.array(one.element.static_stiffness(), dtype=float)
+            found.append(Strut(one, None, *ends, axes, points, stiffness))
+            continue
+        for law in one.element.laws():
+            at = points + np.array(law.shift)
+            line = at[1] - at[0]
+            length = float(np.linalg.norm(line))
+            stiffness = law.static_stiffness(line / length if length > 0.0 else line)
+            own_axes = kernel.OF_MIDDLE if law.middle else axes
+            found.append(Strut(one, law, *ends, own_axes, at, stiffness))
+    return found
+
+
+def _axes(lower: int, upper: int, axles: set[int], ground: int) -> int:
+    if lower not in axles:
+        return kernel.OF_LOWER
+    if upper == ground:
+        return kernel.OF_TRACK
+    return kernel.OF_LOWER if upper in axles else kernel.OF_UPPER
+
+
+def block_of(
+    vehicle: Vehicle, struts: list[Strut], preloads: Array, rest: Array, centres: Array
+) -> tuple[Array, list[Any]]:
+    """The kernel's block of a vehicle, and the (connection, first-order state) of each state.
+
+    preloads (m, 6): force and moment of each strut on its upper body at rest, track axes;
+    rest (n, 6): displacement and rotation vector of the parts at rest against `centres` (n, 3).
+    Places in the system are put in later; they are those of the vehicle alone here.
+    """
+    count = len(vehicle.parts)
+    bodies = np.zeros((count, kernel.BODY))
+    for k, part in enumerate(vehicle.parts):
+        bodies[k, kernel.FIRST] = 6 * k
+        bodies[k, kernel.SPINS] = float(isinstance(part, Axle))
+        bodies[k, kernel.POSITION] = centres[k]
+    frames = np.zeros((count + 1, kernel.FRAME))
+    kernel.place_frames(rest.ravel(), np.zeros(6 * count), bodies, frames)
+    rows: list[Array] = []
+    pool: list[Array] = []
+    states: list[Any] = []
+    size = 0
+    for strut, preload in zip(struts, preloads, strict=True):
+        law = strut.law
+        if law is None:
+            continue
+        row = np.zeros(kernel.ROW)
+        row[[kernel.KIND, kernel.LOWER, kernel.UPPER]] = law.kind, strut.lower, strut.upper
+        row[kernel.AXES] = strut.axes
+        row[[kernel.STATE, kernel.POOL, kernel.STOP, kernel.BLOW_OFF]] = -1.0
+        turned = []
+        for body, point, place in zip(
+            (strut.lower, strut.upper),
+            strut.points,
+            (kernel.POINT_LOWER, kernel.POINT_UPPER),
+            strict=True,
+        ):
+            axes = frames[body, kernel.F_AXES].reshape(3, 3)
+            row[place] = axes.T @ (point - frames[body, kernel.F_CENTRE])
+            turned.append(axes)
+        line = strut.points[1] - strut.points[0]
+        own = turned[1] if strut.axes == kernel.OF_UPPER else turned[0]
+        if strut.axes == kernel.OF_TRACK:
+            own = np.eye(3)
+        row[kernel.REFERENCE][:3] = own.T @ line
+        theta = np.zeros(3)
+        kernel.rotation_between(turned[0].ravel(), turned[1].ravel(), theta)
+        row[kernel.REFERENCE][3:] = theta
+        row[kernel.FORCE] = preload[:3]
+        row[kernel.MOMENT] = own.T @ preload[3:]
+        row[kernel.STIFFNESS], row[kernel.DAMPING] = law.stiffness, law.damping
+        row[kernel.DIRECTION] = law.direction
+        if law.kind == kernel.ROD:
+            row[kernel.LENGTH] = np.linalg.norm(line)
+            row[kernel.TENSION] = -preload[:3] @ line / row[kernel.LENGTH]
+        if law.state is not None:
+            row[kernel.STATE] = len(states)
+            states.append((strut.connection.name, law.state))
+        parts: list[tuple[int, Array]] = []
+        if law.matrices is not None:
+            both = np.concatenate([matrix.ravel() for matrix in law.matrices])
+            parts.append((kernel.POOL, both))
+        for place, curve in ((kernel.STOP, law.stop), (kernel.BLOW_OFF, law.blow_off)):
+            if curve is not None:
+                parts.append((place, curve.pool()))
+        for place, content in parts:
+            row[place] = size
+            size += len(content)
+            pool.append(content)
+        rows.append(row)
+    laws = np.array(rows).reshape(-1, kernel.ROW)
+    block = kernel.new_block(bodies, laws, np.concatenate([*pool, np.zeros(1)]), len(states))
+    return block, states
+
+
+def strokes_at(block: Array, pose: Array) -> Array:
+    """Strokes (k,) [m] at which no damper in series pulls, in a pose (6 n) that lasts."""
+    count, laws = int(block[kernel.H_BODIES]), int(block[kernel.H_LAWS])
+    start = int(block[kernel.H_BODY_ROWS])
+    bodies = block[start : start + count * kernel.BODY].reshape(count, kernel.BODY)
+    start = int(block[kernel.H_LAW_ROWS])
+    rows = block[start : start + laws * kernel.ROW].reshape(laws, kernel.ROW)
+    frames = np.zeros((count + 1, kernel.FRAME))
+    kernel.place_frames(pose, np.zeros(6 * count), bodies, frames)
+    strokes = np.zeros(int(block[kernel.H_STATES]))
+    for row in rows:
+        if row[kernel.STATE] < 0:
+            continue
+        ends, turned = [], []
+        for body, place in (
+            (row[kernel.LOWER], kernel.POINT_LOWER),
+            (row[kernel.UPPER], kernel.POINT_UPPER),
+        ):
+            axes = frames[int(body), kernel.F_AXES].reshape(3, 3)
+            ends.append(frames[int(body), kernel.F_CENTRE] + axes @ row[place])
+            turned.append(axes)
+        own = turned[1] if row[kernel.AXES] == kernel.OF_UPPER else turned[0]
+        if row[kernel.AXES] == kernel.OF_TRACK:
+            own = np.eye(3)
+        along = own.T @ (ends[1] - ends[0]) - row[kernel.REFERENCE][:3]
+        strokes[int(row[kernel.STATE])] = along @ row[kernel.DIRECTION]
+    return strokes
