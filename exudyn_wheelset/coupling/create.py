@@ -135,7 +135,9 @@ def create_wheelset(
     )
     marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} centre", bodyNumber=created["bodyNumber"]))
     rails.attach(mbs, created["nodeNumber"])
-    force_function = rails.load_function(0)
+    # Exudyn's stub files know their own callback classes only.
+    force_function: Any = rails.load_function(0)
+    torque_function: Any = rails.load_function(1)
     force = mbs.AddLoad(
         LoadForceVector(
             name=f"{name} rail force",
@@ -147,7 +149,7 @@ def create_wheelset(
         LoadTorqueVector(
             name=f"{name} rail torque",
             markerNumber=marker,
-            loadVectorUserFunction=rails.load_function(1),
+            loadVectorUserFunction=torque_function,
         )
     )
     if rail_elasticity is not None:
@@ -201,8 +203,10 @@ def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:
         )
     )
 
-    def rates(mbs: Any, t: float, item: int, shifts: Any) -> list[float]:
+    def rates_of(mbs: Any, t: float, item: int, shifts: Any) -> list[float]:
         return contact.rail_rates(mbs, t)
+
+    rates: Any = rates_of
 
     # A rail gives way by a tenth of a millimetre under a wheel.
     name_states(

@@ -157,7 +157,7 @@ class VehicleItems:
 
     def node(self, name: str) -> int:
         """Node of a body or wheelset by name."""
-        items = {**self.bodies, **self.wheelsets}
+        items: dict[str, Any] = {**self.bodies, **self.wheelsets}
         return items[name].node
 
 
@@ -221,7 +221,7 @@ def add_vehicle(
         )
         bodies[body.name] = BodyItems(int(created["nodeNumber"]), int(created["bodyNumber"]))
         _put_at_rest(mbs, bodies[body.name].node, rest.pose[k], None)
-    parts = [*wheelsets.values(), *bodies.values()]
+    parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
     connections = _own_items(mbs, rest, [*parts, BodyItems(-1, int(ground))], shift, len(wheelsets))
     centres = rest.centres + shift

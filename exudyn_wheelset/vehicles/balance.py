@@ -118,10 +118,10 @@ def _check_balance(vehicle: Vehicle, left: Array, sunk: Array) -> None:
             f"{load:.4g} {unit} in {_DIRECTIONS[direction]}, against which it "
             "has no spring: add one, or give the preload that balances it"
         )
-    worst = int(np.argmax(np.abs(sunk[:, 2])))
-    if abs(sunk[worst, 2]) > _DEEPEST:
+    deepest = int(np.argmax(np.abs(sunk[:, 2])))
+    if abs(sunk[deepest, 2]) > _DEEPEST:
         raise WheelsetError(
-            f"{vehicle.name} cannot stand: {vehicle.parts[worst].name!r} sinks by "
-            f"{-sunk[worst, 2]:.3g} m under its load (at most {_DEEPEST:g} m): are the vertical "
+            f"{vehicle.name} cannot stand: {vehicle.parts[deepest].name!r} sinks by "
+            f"{-sunk[deepest, 2]:.3g} m under its load (at most {_DEEPEST:g} m): are the vertical "
             "stiffnesses below it given in N/m? 1 kN/mm is 1e6 N/m"
         )

@@ -188,9 +188,10 @@ class Vehicle:
                 if not isinstance(entry, kind):
                     raise WheelsetError(f"{self.name}: {entry!r} in {what} is no {kind.__name__}")
             put(self, what, entries)
-        for what, value, kind in (("track", self.track, Track), ("contact", self.contact, Contact)):
-            if not isinstance(value, kind):
-                raise WheelsetError(f"{self.name}: {what} = {value!r}: give a {kind.__name__}")
+        if not isinstance(self.track, Track):
+            raise WheelsetError(f"{self.name}: track = {self.track!r}: give a Track")
+        if not isinstance(self.contact, Contact):
+            raise WheelsetError(f"{self.name}: contact = {self.contact!r}: give a Contact")
         if self.preload not in PRELOADS:
             raise unknown("preload", self.preload, PRELOADS)
         put(self, "gravity", number("gravity", self.gravity, "m/s^2", 0.0, 100.0))

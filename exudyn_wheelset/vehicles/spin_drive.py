@@ -26,12 +26,14 @@ def create_spin_drive(mbs: Any, items: WheelsetItems, radius: float, damping: fl
     """
     contact = items.contact
 
-    def torque(mbs: Any, t: float, load: Any) -> list[float]:
+    def torque_of(mbs: Any, t: float, load: Any) -> list[float]:
         if contact.first < 0:
             contact.place(mbs)
         spin = mbs.systemData.GetODE2Coordinates_t()[contact.first + 4]
         return [0.0, damping * (contact.rail_speed / radius - spin), 0.0]
 
+    # Exudyn's stub files know their own callback classes only.
+    torque: Any = torque_of
     return mbs.AddLoad(
         LoadTorqueVector(
             name="spin drive",

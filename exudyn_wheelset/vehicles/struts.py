@@ -161,11 +161,11 @@ def block_of(
         if law.matrices is not None:
             both = np.concatenate([matrix.ravel() for matrix in law.matrices])
             parts.append((kernel.POOL, both))
-        for place, curve in ((kernel.STOP, law.stop), (kernel.BLOW_OFF, law.blow_off)):
+        for entry, curve in ((kernel.STOP, law.stop), (kernel.BLOW_OFF, law.blow_off)):
             if curve is not None:
-                parts.append((place, curve.pool()))
-        for place, content in parts:
-            row[place] = size
+                parts.append((entry, curve.pool()))
+        for entry, content in parts:
+            row[entry] = size
             size += len(content)
             pool.append(content)
         rows.append(row)
