@@ -21,7 +21,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
+from exudyn_wheelset.coupling.derailment import DerailmentWatch
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_atomically
 from exudyn_wheelset.front.settings import changed_settings, load_settings
@@ -312,14 +312,14 @@ def test_single_wheelset_derails_with_an_event(tmp_path, capsys):
 
 def test_single_wheelset_interrupted_keeps_its_results(tmp_path, capsys, monkeypatch):
     """Ctrl-C in the first run: exit status 130, its first second is on disk."""
-    check = WheelRailContact.check
+    look = DerailmentWatch.look
 
-    def interrupt(self, mbs):
-        if mbs.systemData.GetTime() > 1.0:
+    def interrupt(self, time):
+        if time > 1.0:
             signal.raise_signal(signal.SIGINT)
-        check(self, mbs)
+        return look(self, time)
 
-    monkeypatch.setattr(WheelRailContact, "check", interrupt)
+    monkeypatch.setattr(DerailmentWatch, "look", interrupt)
     handler = signal.getsignal(signal.SIGINT)
     assert call("single_wheelset", "--json", "--out", str(tmp_path)) == 130
     captured = capsys.readouterr()

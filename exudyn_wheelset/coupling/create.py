@@ -114,6 +114,7 @@ def create_wheelset(
         speed if moving_frame else 0.0,
         irregularity,
         rail_elasticity,
+        name,
     )
     if height is None:
         height = _rest_height(wheelset, track) - 1.0e-4

@@ -20,6 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import exudyn as exu
@@ -34,12 +35,8 @@ from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
 from exudyn_wheelset.coupling.addresses import address_of, integers_at, numbers_at
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity, elastic_forces
-from exudyn_wheelset.errors import ContactError
+from exudyn_wheelset.coupling.guidance import Guidance, guidance
 
-# While one flange climbs its rail the centre rises by half a flange height, some 14 mm; beyond a
-# shift of 40 mm no tread carries, and a wheel off its rail drops.
-_DERAILED_RISE = 0.015
-_DERAILED_SHIFT = 0.04
 _CURRENT = exu.ConfigurationType.Current
 Irregularity = Callable[[float], Any]
 
@@ -55,6 +52,20 @@ _SHIFTS = slice(27, 31)
 _RATES = slice(31, 35)
 _PARAMETERS = slice(35, 35 + kernel.PARAMETER_COUNT)
 _RESULT = slice(35 + kernel.PARAMETER_COUNT, None)
+
+
+@compiled(inline="always")
+def _axle(tx, ty, tz):
+    """Factors s, c of R = 1 + s (theta x) + c (theta x theta x), and the axle's direction R e_y."""
+    square = tx * tx + ty * ty + tz * tz
+    if square > 1.0e-10:
+        angle = math.sqrt(square)
+        s = math.sin(angle) / angle
+        c = (1.0 - math.cos(angle)) / square
+    else:
+        s = 1.0 - square / 6.0
+        c = 0.5 - square / 24.0
+    return s, c, -s * tz + c * tx * ty, 1.0 - c * (tx * tx + tz * tz), s * tx + c * ty * tz
 
 
 @compiled
@@ -74,17 +85,7 @@ def body_wrench(q, v, first, table, state, part):
             memory[k] = q[first + k]
             memory[6 + k] = v[first + k]
         tx, ty, tz = q[first + 3], q[first + 4], q[first + 5]
-        square = tx * tx + ty * ty + tz * tz
-        if square > 1.0e-10:
-            angle = math.sqrt(square)
-            s = math.sin(angle) / angle
-            c = (1.0 - math.cos(angle)) / square
-        else:
-            s = 1.0 - square / 6.0
-            c = 0.5 - square / 24.0
-        lx = -s * tz + c * tx * ty
-        ly = 1.0 - c * (tx * tx + tz * tz)
-        lz = s * tx + c * ty * tz
+        s, c, lx, ly, lz = _axle(tx, ty, tz)
         wx, wy, wz = v[first + 3], v[first + 4], v[first + 5]
         # R w = w + s theta x w + c theta x (theta x w)
         ux = ty * wz - tz * wy
@@ -115,6 +116,29 @@ def body_wrench(q, v, first, table, state, part):
 
 
 @compiled
+def stance(table, state, place):
+    """Fill place (7) with where the wheelset stood at the last evaluation of its loads.
+
+    Lateral shift [m] against the left and the right rail; rise [m] of the left and the right
+    wheel's tape circle above its rail's top; patches on the left and the right; speed [m/s] over
+    the rails.
+    """
+    q = state[_MEMORY]
+    reference, motion, shifts = state[_REFERENCE], state[_RAIL_MOTION], state[_SHIFTS]
+    _, _, lx, ly, lz = _axle(q[3], q[4], q[5])
+    result = state[_RESULT].view(kernel.RESULT)[0]
+    for hand in range(2):
+        side = side_of(table, hand)
+        sign = 1.0 - 2.0 * hand
+        place[hand] = reference[1] + q[1] - motion[2 * hand] - shifts[2 * hand]
+        rail = motion[2 * hand + 1] + shifts[2 * hand + 1]
+        centre = reference[2] + q[2] + sign * side.tape * lz
+        place[2 + hand] = centre - side.radius * math.hypot(lx, ly) - rail
+        place[4 + hand] = result.count[hand]
+    place[6] = q[6] + state[_PARAMETERS].view(kernel.PARAMETERS)[0].rail_speed
+
+
+@compiled
 def wrench_at(block):
     """As `body_wrench`, all arguments in the block of integers at this address.
 
@@ -138,7 +162,8 @@ class WheelRailContact:
     wheelset, track: descriptions; parameters: array of `contact_parameters`; rail_speed [m/s]:
     speed of the moving frame the model stands in, 0 for a model that runs over the ground;
     irregularity: function of the station [m] that returns the rail motion (8), or None;
-    elasticity: springs under each rail, or None for rails that do not give way.
+    elasticity: springs under each rail, or None for rails that do not give way; name: of the
+    wheelset.
     """
 
     wheelset: Wheelset
@@ -147,6 +172,7 @@ class WheelRailContact:
     rail_speed: float = 0.0
     irregularity: Irregularity | None = None
     elasticity: RailElasticity | None = None
+    name: str = "wheelset"
 
     def __post_init__(self) -> None:
         self.table = contact_tables(self.wheelset, self.track)
@@ -285,19 +311,13 @@ class WheelRailContact:
         forces = self.current(mbs)
         return sum(patch.energy for patch in (*forces.left, *forces.right))
 
-    def check(self, mbs: Any) -> None:
-        """Raise ContactError where the wheelset has left the rails.
+    @cached_property
+    def guidance(self) -> Guidance:
+        """How far the wheelset may go and still be guided by its rails."""
+        return guidance(self.wheelset, self.track)
 
-        A wheel that lifts off for a moment is no event.
-        """
-        result = self.evaluate(mbs)
-        left, right = result.view(kernel.RESULT)[0]["count"]
-        data = mbs.systemData.GetODE2Coordinates()
-        height = self.reference[2] + data[self.first + 2] - self.wheelset.radius
-        shift = self.reference[1] + data[self.first + 1]
-        if abs(shift) > _DERAILED_SHIFT or abs(height) > _DERAILED_RISE:
-            raise ContactError(
-                f"derailment: the wheelset stands at y = {shift * 1e3:.1f} mm, "
-                f"{height * 1e3:.1f} mm above its nominal height, with {left} patches on the "
-                f"left and {right} on the right"
-            )
+    def stance(self) -> np.ndarray:
+        """Where the wheelset stood when its loads were last asked for, as `stance` fills it."""
+        place = np.empty(7)
+        stance(self.table, self._state, place)
+        return place

@@ -7,8 +7,6 @@ eigenvalues: the decaying or growing sinusoid nearest to the motion.
 
 from __future__ import annotations
 
-import signal
-import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -16,13 +14,11 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from scipy.optimize import least_squares
-from tqdm import tqdm
 
+from exudyn_wheelset.coupling.running import run_solver
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
-from exudyn_wheelset.errors import AnalysisError, ContactError
-
-# Contacts are looked at this often [s]: a derailing wheel needs some 20 ms over the flange.
-CHECK_INTERVAL = 2.0e-3
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results import endings
 
 
 @dataclass(frozen=True)
@@ -67,65 +63,11 @@ def simulate(
     The run ends before its time where one of `contacts` finds its wheelset derailed, where the
     solver gives up, or by Ctrl-C (in the main thread); the ending says which.
     """
-    integration = settings.timeIntegration
-    start, end = integration.startTime, integration.endTime
-    watched = list(contacts)
-    event: list[str] = []
-    stopped = threading.Event()
-    bar = tqdm(
-        total=round(end - start, 9),
-        disable=not progress,
-        desc=description,
-        unit="s",
-        bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
-    )
-    next_look = start
-
-    def between_steps(mbs: Any, t: float) -> bool:
-        nonlocal next_look
-        if t < next_look:
-            return True
-        next_look = t + CHECK_INTERVAL
-        bar.update(max(0.0, min(t, end) - start - bar.n))
-        if stopped.is_set():
-            return False
-        try:
-            for contact in watched:
-                contact.check(mbs)
-        except ContactError as error:
-            event.append(f"at {t:.3f} s: {error}")
-            return False
-        return True
-
-    mbs.SetPreStepUserFunction(between_steps)
-    config: Any = exu.config
-    kept = (config.suppressWarnings, config.printToConsole)
-    handler = None
-    if threading.current_thread() is threading.main_thread():
-        handler = signal.signal(signal.SIGINT, lambda *_: stopped.set())
-    try:
-        with bar:
-            config.suppressWarnings, config.printToConsole = True, False
-            try:
-                done = mbs.SolveDynamic(
-                    settings, solverType=integration.solverType, showHints=False
-                )
-                if not done:
-                    event.append("the solver did not converge")
-            except Exception as error:
-                lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-                event.append(" ".join(lines[:2]) or type(error).__name__)
-            if not event and not stopped.is_set():
-                bar.update(end - start - bar.n)
-    finally:
-        config.suppressWarnings, config.printToConsole = kept
-        mbs.SetPreStepUserFunction(0)
-        if handler is not None:
-            signal.signal(signal.SIGINT, handler)
+    start = settings.timeIntegration.startTime
+    outcome = run_solver(mbs, settings, None, contacts, progress, description)
     reached = float(mbs.systemData.GetTime()) - start
-    if stopped.is_set() and not event:
-        event.append(f"interrupted at {reached:.3f} s")
-    return Ending(reached, event[0] if event else None, stopped.is_set())
+    event = None if outcome.ending is endings.Ending.FINISHED else str(outcome)
+    return Ending(reached, event, outcome.ending is endings.Ending.INTERRUPTED)
 
 
 def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:

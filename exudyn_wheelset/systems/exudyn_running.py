@@ -1,4 +1,4 @@
-"""Running Exudyn's solvers inside an analysis: without files, without messages, with its words."""
+"""Running an Exudyn system from given coordinates, and its coordinates at every step."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorNode
 
+from exudyn_wheelset.coupling.registration import wheelsets_of
+from exudyn_wheelset.coupling.running import copied_settings, run_solver
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.results.endings import Outcome
 
 Array = np.ndarray
 
@@ -17,40 +19,6 @@ Array = np.ndarray
 # and explicit steps need no Jacobian of the loads.
 DEFAULT_SOLVER = "RK44"
 DEFAULT_STEP = 5.0e-4
-
-
-class QuietExudyn:
-    """Keeps Exudyn's messages off the console: a run that fails is reported by the exception."""
-
-    def __enter__(self) -> None:
-        config: Any = exu.config
-        self._kept = (config.suppressWarnings, config.printToConsole)
-        config.suppressWarnings, config.printToConsole = True, False
-
-    def __exit__(self, *_: object) -> None:
-        config: Any = exu.config
-        config.suppressWarnings, config.printToConsole = self._kept
-
-
-def copied_settings(settings: exu.SimulationSettings | None) -> exu.SimulationSettings:
-    """A copy of Exudyn's settings (default: its own) that writes no files and says nothing.
-
-    Accelerations at the end of an explicit step, a fifth evaluation of RK44 that changes no state,
-    are left out.
-    """
-    copy = exu.SimulationSettings()
-    if settings is not None:
-        copy.SetDictionary(settings.GetDictionary())
-    copy.solution.file.write = False
-    copy.timeIntegration.verboseMode = 0
-    copy.timeIntegration.explicit.computeEndOfStepAccelerations = False
-    return copy
-
-
-def failure_words(error: Exception) -> str:
-    """The line of an exception that names the cause, without Exudyn's trace."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    return " ".join(lines[:2]) if lines else type(error).__name__
 
 
 class Runner:
@@ -71,6 +39,7 @@ class Runner:
         step: float | None,
     ) -> None:
         self._mbs = mbs
+        self._contacts = [items.contact for items in wheelsets_of(mbs)]
         self.settings = copied_settings(settings)
         integration = self.settings.timeIntegration
         if step is None:
@@ -102,6 +71,8 @@ class Runner:
         first_order: Array,
         steps: int,
         duration: float,
+        progress: bool = False,
+        description: str = "simulating",
     ) -> Outcome:
         """Run from coordinates and velocities (nq,), (nq,) and first-order ones (n1,).
 
@@ -126,13 +97,9 @@ class Runner:
             data.SetODE2Coordinates_t(velocities, initial)
             if len(first_order):
                 data.SetODE1Coordinates(first_order, initial)
-            with QuietExudyn():
-                success = self._mbs.SolveDynamic(
-                    settings, solverType=self.solver_type, showHints=False
-                )
-            return Outcome(Ending.FINISHED if success else Ending.NO_CONVERGENCE)
-        except Exception as error:
-            return Outcome(Ending.MODEL_FAILED, failure_words(error))
+            return run_solver(
+                self._mbs, settings, self.solver_type, self._contacts, progress, description
+            )
         finally:
             data.SetODE2Coordinates(kept[0], initial)
             data.SetODE2Coordinates_t(kept[1], initial)

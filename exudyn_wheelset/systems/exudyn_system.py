@@ -20,16 +20,12 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.coupling.registration import wheelsets_of
+from exudyn_wheelset.coupling.running import QuietExudyn, copied_settings, failure_words
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.exudyn_layout import lay_out
-from exudyn_wheelset.systems.exudyn_running import (
-    QuietExudyn,
-    Runner,
-    copied_settings,
-    failure_words,
-)
+from exudyn_wheelset.systems.exudyn_running import Runner
 from exudyn_wheelset.systems.exudyn_wheelsets import check_speed_is_a_parameter, rolling_radii
 from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
@@ -284,6 +280,8 @@ class ExudynSystem(DynamicSystem):
             reached = times[times <= grid[-1] + 1e-12] if len(grid) else times[:0]
             samples = CubicSpline(grid, raw)(reached) if len(grid) > 1 else raw[: len(reached)]
         finite = int(np.argmin([*np.all(np.isfinite(samples), axis=1), False]))
+        if outcome.ending is Ending.INTERRUPTED:
+            raise KeyboardInterrupt(str(outcome))
         if outcome.ending is Ending.FINISHED and finite < len(times):
             outcome = Outcome(Ending.NOT_FINITE)
         if outcome.ending is not Ending.FINISHED:
