@@ -24,6 +24,8 @@ from exudyn_wheelset.creep.arguments import (
     finite,
     unknown,
 )
+from exudyn_wheelset.creep.exact import LAW as EXACT
+from exudyn_wheelset.creep.exact import exact
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.fastsim import fastsim
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
@@ -51,6 +53,7 @@ CREEP_LAWS: dict[str, CreepLaw] = {
         POLACH,
         POLACH_2005,
         FASTSIM,
+        EXACT,
         POLACH_KALKER,
     )
 }
@@ -68,6 +71,7 @@ _SHEN_HEDRICK_ELKINS = SHEN_HEDRICK_ELKINS.number
 _POLACH = POLACH.number
 _POLACH_2005 = POLACH_2005.number
 _POLACH_KALKER = POLACH_KALKER.number
+_EXACT = EXACT.number
 
 
 @compiled
@@ -145,6 +149,19 @@ def creep_kernel(
         )
     if law_number == _POLACH_2005:
         return polach_2005(
+            creep_x,
+            creep_y,
+            spin,
+            a,
+            b,
+            normal_force,
+            friction,
+            shear_modulus,
+            poisson,
+            parameters,
+        )
+    if law_number == _EXACT:
+        return exact(
             creep_x,
             creep_y,
             spin,
