@@ -44,6 +44,7 @@ _PLACES = {
     "WheelRailContact": "coupling.wheel_rail",
     "Wheelset": "contact.descriptions",
     "WheelsetError": "errors",
+    "WheelsetWarning": "errors",
     "WheelsetItems": "coupling.registration",
     "WheelsetOnFrame": "vehicles.wheelset_on_frame",
     "contact_forces": "contact.wheelset_contact",

@@ -1,4 +1,8 @@
-"""Errors of exudyn_wheelset; all derive from `WheelsetError`, so one `except` catches them."""
+"""Errors and warnings of exudyn_wheelset.
+
+All errors derive from `WheelsetError`, so one `except` catches them; all warnings are
+`WheelsetWarning`, so one filter silences them or turns them into errors.
+"""
 
 
 class WheelsetError(ValueError):
@@ -19,3 +23,7 @@ class SettingsError(WheelsetError):
 
 class AnalysisError(WheelsetError):
     """An analysis that cannot give a result; says how far it came and why it ended."""
+
+
+class WheelsetWarning(UserWarning):
+    """A result that is given but not to be trusted; has the number, its limit and the mend."""

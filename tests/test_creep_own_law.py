@@ -96,7 +96,7 @@ def test_registered_by_name_with_parameters(registered):
     with pytest.raises(WheelsetError, match="unknown parameter of creep law 'scaled' 'alone'"):
         creep_force("scaled", 1.0, 1.0, 0.0, *STATES[1], alone=1.0)
     values = creep_parameters("scaled", along=7.0)
-    assert law_of_kernel(law.number, values) is law
+    assert law_of_kernel(law.number, values) == (law, {"along": 7.0, "across": 3.0})
     assert values[1:].tolist() == [7.0, 3.0]
 
 

@@ -32,7 +32,8 @@ class CreepLaw:
 
     `number` selects the law in compiled code; `parameters` are in the order of its array;
     `shorthands` are names that set several parameters at once; `function` is that of a law of
-    one's own (exudyn_wheelset.creep.own).
+    one's own (exudyn_wheelset.creep.own); `when_linearised` says what a Jacobian holds of a law
+    that has no derivative at zero creepage with spin, the equilibrium of a wheelset on its rails.
     """
 
     name: str
@@ -41,6 +42,7 @@ class CreepLaw:
     parameters: tuple[CreepParameter, ...] = ()
     shorthands: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     function: Any = None
+    when_linearised: str = ""
 
     def expand(self, parameters: Mapping[str, Any]) -> dict[str, Any]:
         """Parameters by their own names, shorthands and words replaced.

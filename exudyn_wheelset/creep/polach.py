@@ -33,7 +33,12 @@ from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded, saturated_spin_moment
 
-LAW = CreepLaw("polach", 3, "Polach 1999", (SPIN_MOMENT,))
+WHEN_LINEARISED = (
+    "It has no derivative at zero creepage with spin: 'linear' means the slopes along x and along "
+    "y, each taken alone; in slanted creepage, which hunting is, the force is not their sum, "
+    "however small the motion."
+)
+LAW = CreepLaw("polach", 3, "Polach 1999", (SPIN_MOMENT,), when_linearised=WHEN_LINEARISED)
 
 _EPS_LIMIT = 1e50
 

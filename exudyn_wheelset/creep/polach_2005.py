@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.law import SPIN_MOMENT, CreepLaw, CreepParameter
-from exudyn_wheelset.creep.polach import polach_force
+from exudyn_wheelset.creep.polach import WHEN_LINEARISED, polach_force
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded, saturated_spin_moment
 
 LAW = CreepLaw(
@@ -33,6 +33,7 @@ LAW = CreepLaw(
         CreepParameter("friction_decay", 0.6, 0.0, 1e6, "B, decay over slip velocity [s/m]"),
         CreepParameter("speed", 0.0, 0.0, 1e6, "V, speed of rolling [m/s]"),
     ),
+    when_linearised=WHEN_LINEARISED,
 )
 
 

@@ -250,12 +250,21 @@ def creep_law(law: Any) -> CreepLaw:
     )
 
 
-def law_of_kernel(number: int, parameters: NDArray) -> CreepLaw | None:
-    """Give the description of the law of a number with its parameter array; None if unknown."""
+def law_of_kernel(number: int, values: NDArray) -> tuple[CreepLaw, dict[str, float]]:
+    """Give the law of a number and its parameters by name, from its array as compiled code has it.
+
+    Raises WheelsetError where the number is none of a law, or the address none of this process.
+    """
+    number = int(number)
     if number == OWN_LAW:
-        function = law_at(int(parameters[0]))
-        return None if function is None else creep_law(function)
-    return next((law for law in CREEP_LAWS.values() if law.number == number), None)
+        function = law_at(int(values[0]))
+        law = None if function is None else creep_law(function)
+        values = values[1:]
+    else:
+        law = next((known for known in CREEP_LAWS.values() if known.number == number), None)
+    if law is None:
+        raise WheelsetError(f"no creep law of this process has the number {number}")
+    return law, {p.name: float(v) for p, v in zip(law.parameters, values, strict=False)}
 
 
 def register_creep_law(

@@ -22,11 +22,16 @@ from scipy.interpolate import CubicSpline
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import QuietExudyn, copied_settings, failure_words
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
+from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.exudyn_layout import lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner
-from exudyn_wheelset.systems.exudyn_wheelsets import check_speed_is_a_parameter, rolling_radii
+from exudyn_wheelset.systems.exudyn_wheelsets import (
+    check_speed_is_a_parameter,
+    patches_of,
+    rolling_radii,
+)
 from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
@@ -188,6 +193,11 @@ class ExudynSystem(DynamicSystem):
         rate = np.empty(self.scales.shape[0])
         state_rate(state, force, self._inverse_mass, self._position_of, self._rotations, rate)
         return rate
+
+    def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
+        """Contact patches with their creep laws at a state, by wheelset and wheel."""
+        self.derivative(state, speed)
+        return tuple(patch for items in self.wheelsets for patch in patches_of(self.mbs, items))
 
     def expand(self, state: Array) -> tuple[Array, Array]:
         """Second-order coordinates and their velocities (nq,), (nq,) of a state.

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
+from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.coupling.registration import WheelsetItems
+from exudyn_wheelset.creep import law_of_kernel
+from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError, ContactError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 
@@ -41,3 +45,30 @@ def rolling_radii(wheelsets: Sequence[WheelsetItems]) -> dict[int, float]:
             radius = contact.wheelset.radius
         radii[items.node] = float(radius)
     return radii
+
+
+def patches_of(mbs: Any, items: WheelsetItems) -> tuple[CreepPatch, ...]:
+    """Contact patches of a wheelset with its creep law, at the current state of `mbs`."""
+    contact = items.contact
+    parameters = contact.parameters.view(kernel.PARAMETERS)[0]
+    law, values = law_of_kernel(parameters["law"], parameters["law_parameters"])
+    forces = contact.current(mbs)
+    return tuple(
+        CreepPatch(
+            law=law,
+            creep_x=patch.creep_x,
+            creep_y=patch.creep_y,
+            spin=patch.spin,
+            a=patch.a,
+            b=patch.b,
+            normal_force=patch.normal_force,
+            friction=float(parameters["friction"]),
+            shear_modulus=float(parameters["shear_modulus"]),
+            poisson=float(parameters["poisson"]),
+            parameters=values,
+            where=f"{items.name}, {side} wheel",
+        )
+        for side, patches in (("left", forces.left), ("right", forces.right))
+        for patch in patches
+        if patch.normal_force > 0.0
+    )

@@ -21,6 +21,7 @@ import numpy as np
 import scipy
 from scipy.integrate import solve_ivp
 
+from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.vehicles.description import Vehicle
@@ -175,6 +176,10 @@ class DynamicSystem(ABC):
                 outcome,
             )
         return states
+
+    def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
+        """Loaded contact patches with their creep laws at a state; empty for equations without."""
+        return ()
 
     def measures(self) -> dict[str, Any]:
         """Settings, parameters and versions, for the record kept with every result."""

@@ -22,6 +22,7 @@ from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
+from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_cells
 from exudyn_wheelset.geometry.rigid import contact_geometry
@@ -265,6 +266,26 @@ class LateralWheelset(DynamicSystem):
             "wheel_y",
         )
         return {name: self._sides[:, k].copy() for k, name in enumerate(names)}
+
+    def creep_patches(self, state: np.ndarray, speed: float) -> tuple[CreepPatch, ...]:
+        """The patches of both wheels with the creep law at a state (4,), left first."""
+        at = self.contact_state(state, speed)
+        given = self.parameters
+        return tuple(
+            CreepPatch(
+                law=self._law,
+                **{
+                    name: float(at[name][hand])
+                    for name in ("creep_x", "creep_y", "spin", "a", "b", "normal_force")
+                },
+                friction=given.friction,
+                shear_modulus=given.shear_modulus,
+                poisson=given.poisson,
+                parameters=self._law_parameters,
+                where=f"{side} wheel",
+            )
+            for hand, side in enumerate(("left", "right"))
+        )
 
     def measures(self) -> dict[str, Any]:
         settings = {

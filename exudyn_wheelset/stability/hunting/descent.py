@@ -34,7 +34,7 @@ from exudyn_wheelset.stability.hunting.settling import (
     typical_period,
     watched_index,
 )
-from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearise
+from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "quasi-static descent"
@@ -320,7 +320,7 @@ class _Run:
 
 def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:
     """State (n,): equilibrium plus the least damped hunting mode, `size` times its scale."""
-    linear = linearise(system, speed)
+    linear = linearised(system, speed)
     _, mode = hunting_mode(linear)
     displacements = list(system.displacement_indices)
     relative = np.abs(mode / system.scales)[displacements]

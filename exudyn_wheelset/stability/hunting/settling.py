@@ -26,7 +26,7 @@ from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
-from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearise
+from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 SAMPLES = 64
@@ -250,7 +250,7 @@ def typical_period(system: DynamicSystem, speed: float) -> float:
 
     Of the least damped oscillation where no mode hunts. Raises AnalysisError if nothing oscillates.
     """
-    return 2.0 * np.pi / abs(hunting_mode(linearise(system, speed))[0].imag)
+    return 2.0 * np.pi / abs(hunting_mode(linearised(system, speed))[0].imag)
 
 
 def _peak(values: Array) -> float:

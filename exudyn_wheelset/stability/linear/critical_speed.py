@@ -25,6 +25,7 @@ from exudyn_wheelset.stability.linear.crossings import (
     hopf_point,
     polish,
 )
+from exudyn_wheelset.stability.linear.law_checks import warn_of_law
 from exudyn_wheelset.stability.linear.modes import is_lateral, mode_name
 from exudyn_wheelset.stability.linear.spectra import (
     NEUTRAL_FRACTION,
@@ -55,6 +56,10 @@ def linear_critical_speed(
     one that is not hunting. With `guess` (a speed or an earlier CriticalPoint of a slightly
     different vehicle) a secant starts there, and the scan is only made if it fails.
 
+    Warns (WheelsetWarning) where the creep law is not linear about the equilibrium or has another
+    slope there than the exact law; `additivity` and `slope_ratio` of the result are the numbers
+    (see `law_checks`).
+
     Raises AnalysisError if hunting does not turn unstable in [low, high]; the message gives the
     growth rates at both ends.
     """
@@ -63,6 +68,7 @@ def linear_critical_speed(
     if guess is not None:
         found = _critical_speed_near(spectra, low, high, guess, tolerance)
         if found is not None:
+            _warn(spectra, found)
             return found
     speeds = np.linspace(low, high, points)
     scanned = [float(speeds[0])]
@@ -73,10 +79,17 @@ def linear_critical_speed(
             if stable_below and not stable_above:
                 found = _first_hunting(spectra, scanned[-1], speed, tolerance)
                 if found is not None:
-                    return replace(found, remarks=_remarks(spectra, scanned, found))
+                    _warn(spectra, found)
+                    worse = _remarks(spectra, scanned, found)
+                    return replace(found, remarks=worse + found.remarks)
             stable_below = stable_above
             scanned.append(speed)
     raise AnalysisError(_no_critical_speed(spectra, speeds))
+
+
+def _warn(spectra: Spectra, found: CriticalPoint) -> None:
+    if found.law is not None:
+        warn_of_law(spectra.system.name, [(found.speed, found.law)], level=4)
 
 
 def _first_hunting(

@@ -20,7 +20,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.stability.linear.linearisation import linearise
+from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
+from exudyn_wheelset.stability.linear.linearisation import linearised
 from exudyn_wheelset.stability.linear.modes import NAMELESS, mode_name
 from exudyn_wheelset.stability.linear.spectra import (
     NEUTRAL_FRACTION,
@@ -47,7 +48,10 @@ class CriticalPoint(float):
     kind         "hopf" (a pair crosses) or "divergence" (a bare real root crosses)
     evaluations  number of speeds at which the equations were linearised to find it
     mode_name    what moves: "truck hunting", "front truck hunting", "car body upper sway", ...
-    remarks      what else is known of stability that is worse than this answer
+    remarks      what else is known of stability that is worse than this answer, and what "linear"
+                 means for a creep law without a derivative
+    law          what was measured of the creep law about the equilibrium, along the mode; None for
+                 a divergence
     """
 
     speed: float
@@ -61,6 +65,7 @@ class CriticalPoint(float):
     evaluations: int
     mode_name: str = ""
     remarks: tuple[str, ...] = ()
+    law: LawCheck | None = None
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> CriticalPoint:
         return super().__new__(cls, speed)
@@ -69,6 +74,16 @@ class CriticalPoint(float):
     def direction(self) -> Literal["loses stability", "gains stability"]:
         """What a rising speed does to the root that crosses."""
         return "loses stability" if self.slope > 0.0 else "gains stability"
+
+    @property
+    def additivity(self) -> float | None:
+        """|f(a + b) - f(a) - f(b)|/|f| along the mode; 0 where the equations are linear."""
+        return None if self.law is None else self.law.additivity
+
+    @property
+    def slope_ratio(self) -> float | None:
+        """Slope of the creep law over that of the exact law at the equilibrium's patches."""
+        return None if self.law is None else self.law.slope_ratio
 
     def __str__(self) -> str:
         what = [f"{self.frequency:.4g} Hz" if self.kind == "hopf" else "divergence"]
@@ -102,9 +117,16 @@ def stability_changes(
 def hopf_points(
     vehicle: Any, low: float, high: float, *, points: int = 80, tolerance: float = 1e-6
 ) -> list[CriticalPoint]:
-    """All speeds in [low, high] m/s at which an oscillatory pair crosses zero, by rising speed."""
-    changes = stability_changes(vehicle, low, high, points=points, tolerance=tolerance)
-    return [change for change in changes if change.kind == "hopf"]
+    """All speeds in [low, high] m/s at which an oscillatory pair crosses zero, by rising speed.
+
+    Warns (WheelsetWarning) where the creep law is not linear about one of the equilibria or has
+    another slope there than the exact law (see `law_checks`).
+    """
+    system = as_system(vehicle)
+    changes = stability_changes(system, low, high, points=points, tolerance=tolerance)
+    found = [change for change in changes if change.kind == "hopf"]
+    warn_of_law(system.name, [(point.speed, point.law) for point in found if point.law is not None])
+    return found
 
 
 def divergence_points(
@@ -201,6 +223,7 @@ def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalP
     mode, state = _mode(spectra, speed, eigenvalue)
     step = 1e-4 * max(abs(speed), 1.0)
     shifted = spectra.nearest(speed + step, eigenvalue)
+    law = check_law(spectra.system, state, speed, mode)
     return CriticalPoint(
         speed=speed,
         frequency=abs(eigenvalue.imag) / (2.0 * np.pi),
@@ -211,7 +234,9 @@ def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalP
         kind="hopf",
         state_names=spectra.system.state_names,
         evaluations=spectra.evaluations,
-        mode_name=mode_name(spectra.system, mode, abs(eigenvalue.imag)),
+        mode_name=mode_name(spectra.system, mode, abs(eigenvalue.imag) / (2.0 * np.pi)),
+        remarks=(law.remark,) if law.remark else (),
+        law=law,
     )
 
 
@@ -219,7 +244,7 @@ def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, A
     """Eigenvector of the root nearest to an eigenvalue, and the equilibrium."""
     system = spectra.system
     state = spectra.state(speed)
-    full = linearise(system, speed, state)
+    full = linearised(system, speed, state)
     mode = full.eigenvectors[:, np.argmin(np.abs(full.eigenvalues - eigenvalue))]
     shown = list(system.displacement_indices)
     largest = shown[int(np.argmax(np.abs(mode[shown]) / system.scales[shown]))]

@@ -10,13 +10,14 @@ Speeds in m/s, eigenvalues in 1/s, frequencies in Hz.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
 from exudyn_wheelset.stability.linear.modes import (
     HUNTING_SHARE,
     hunting_share,
@@ -38,6 +39,8 @@ class Linearisation:
     eigenvectors    (n, n), columns in the order of the eigenvalues, over the system's states
     hunting_shares  (n,) share of the wheelsets' lateral and yaw motion in each mode, 0 to 1
     system          what was linearised
+    law             what was measured of the creep law along the least damped hunting mode; None
+                    where nothing hunts or it was not asked for
     """
 
     speed: float
@@ -47,6 +50,7 @@ class Linearisation:
     eigenvectors: Array
     hunting_shares: Array
     system: DynamicSystem = field(repr=False)
+    law: LawCheck | None = None
 
     @property
     def growth_rate(self) -> float:
@@ -88,9 +92,22 @@ class RootLocus:
 def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Linearisation:
     """Eigenvalues and eigenvectors about the equilibrium at a forward speed [m/s].
 
-    `guess` is a state (n,) near the equilibrium. Raises AnalysisError if there is none.
+    `guess` is a state (n,) near the equilibrium. Warns (WheelsetWarning) where the creep law is not
+    linear there or has another slope than the exact law (see `law_checks`); `law` of the result
+    has the numbers. Raises AnalysisError if there is no equilibrium.
     """
     system = as_system(vehicle)
+    linear = linearised(system, speed, guess)
+    row = linear.hunting_row
+    if row is None:
+        return linear
+    law = check_law(system, linear.state, linear.speed, linear.eigenvectors[:, row])
+    warn_of_law(system.name, [(linear.speed, law)])
+    return replace(linear, law=law)
+
+
+def linearised(system: DynamicSystem, speed: float, guess: Array | None = None) -> Linearisation:
+    """`linearise` without the measurements of the creep law, for steps of an analysis."""
     state = system.equilibrium(speed, guess)
     jacobian = system.jacobian(state, speed)
     check_finite(system, jacobian, speed)
