@@ -63,6 +63,7 @@ _PLACES = {
     "nonlinear_critical_speed": "stability.hunting.nonlinear",
     "paper_parameters": "vehicles.lateral_wheelset",
     "piecewise_geometry": "geometry.piecewise",
+    "rolling_radius_curve": "geometry.rolling_radius",
     "quasi_static_descent": "stability.hunting.descent",
     "register_creep_law": "creep",
     "root_locus": "stability.linear.linearisation",

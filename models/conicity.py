@@ -8,8 +8,9 @@ or profile files. It prints the conicity over the amplitude, and keeps under run
     conicity_<wheel>_<rail>_shifts.csv      contact over the lateral shift, every 0.02 mm
     conicity_<wheel>_<rail>_amplitudes.csv  conicity over the amplitude, every 0.1 mm
 
-`--json` prints the numbers only: conicity by amplitude in mm, the value at 3 mm, the position of
-rest and the shifts at which the flanges touch.
+All shifts are taken at rail level, where the wheels stand; `--shift axle` takes those of the axle's
+centre, `--shift level` leaves roll out. `--json` prints the numbers only: conicity by amplitude in
+mm, the value at 3 mm, the position of rest and the shifts at which the flanges touch.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import argparse
 import re
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -26,12 +28,17 @@ import numpy as np
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.contact_plots import contact_figure, flange_contact
+from exudyn_wheelset.front.contact_plots import SHIFT_TEXTS, contact_figure, flange_contact
 from exudyn_wheelset.front.output import write_csv, write_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    run_script,
+    script_parser,
+    script_profile,
+)
 from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity, kinematic_oscillation
-from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
-from exudyn_wheelset.geometry.rolling_radius import contact_range, level_contact_geometry
+from exudyn_wheelset.geometry.rigid import ContactGeometry
+from exudyn_wheelset.geometry.rolling_radius import SHIFTS, rolling_radius_curve
 from exudyn_wheelset.profiles import Profile, load_profile
 
 ProfileSource = Profile | str | PathLike
@@ -58,14 +65,17 @@ def run(
     reach: float = 15.0e-3,
     neglect_roll: bool = False,
     method: str = "integration",
+    shift: str = "rail",
+    gauge_depth: float = 0.014,
     out: str | PathLike | None = None,
 ) -> dict[str, Any]:
     """Equivalent conicity by amplitude, position of rest and flange contact, as a dictionary.
 
     wheel, rail, right_wheel, right_rail: profile, name or path; gauge, radius, right_radius,
-    tape_half_distance, origin_half_distance [m]; inclination [-]; reach [m]: largest shift looked
-    at; neglect_roll: axle level, as in EN 15302's reference; method: see `equivalent_conicity`;
-    out: directory for figure and tables. A conicity is None where no oscillation of that amplitude
+    tape_half_distance, origin_half_distance, gauge_depth [m]; inclination [-]; reach [m]: largest
+    shift looked at; shift: "rail", "axle" or "level", see `rolling_radius_curve`; neglect_roll:
+    the same as "level", as in EN 15302's reference; method: see `equivalent_conicity`; out:
+    directory for figure and tables. A conicity is None where no oscillation of that amplitude
     exists or it would leave the rails.
     """
     wheelset = Wheelset(
@@ -80,21 +90,21 @@ def run(
     track = Track(
         load_profile(rail, kind="rail"),
         gauge,
+        gauge_depth,
         inclination=inclination,
         right_rail=None if right_rail is None else load_profile(right_rail, kind="rail"),
         origin_half_distance=origin_half_distance,
     )
-    low, high = contact_range(wheelset, track, reach)
-    y = SHIFT_SPACING * np.arange(np.ceil(low / SHIFT_SPACING), np.floor(high / SHIFT_SPACING) + 1)
-    find = level_contact_geometry if neglect_roll else contact_geometry
-    geometry = find(wheelset, track, y)
-    difference = geometry.rolling_radius_difference
+    shift = "level" if neglect_roll else shift
+    y, difference, geometry = rolling_radius_curve(wheelset, track, reach, SHIFT_SPACING, shift)
+    geometry = replace(geometry, y=y)
     spacing = 2.0 * tape_half_distance
     wanted = [*amplitudes_mm, 3.0]
     conicity = _conicity(y, difference, 1e-3 * np.array(wanted), spacing, radius, method)
     numbers: dict[str, Any] = {
         "wheel": wheelset.wheel.name,
         "rail": track.rail.name,
+        "shift": shift,
         "conicity_3mm": _number(conicity[-1]),
         "conicity": {
             f"{at:g}": _number(value) for at, value in zip(wanted[:-1], conicity[:-1], strict=True)
@@ -105,7 +115,7 @@ def run(
     }
     if out is not None:
         drawn = _conicity(y, difference, DRAWN_AMPLITUDES, spacing, radius, method)
-        numbers["files"] = _keep(Path(out), wheelset, track, geometry, drawn)
+        numbers["files"] = _keep(Path(out), wheelset, track, geometry, drawn, shift)
     return numbers
 
 
@@ -172,6 +182,7 @@ def _keep(
     track: Track,
     geometry: ContactGeometry,
     conicity: np.ndarray,
+    shift: str,
 ) -> list[str]:
     """Write figure and tables; return their paths."""
     stem = f"conicity_{wheelset.wheel.name}_{track.rail.name}"
@@ -188,7 +199,7 @@ def _keep(
         columns[f"{name}_angle_deg"] = np.degrees(side.angle)
         columns[f"{name}_radius_mm"] = 1e3 * side.radius
     by_amplitude = {"amplitude_mm": 1e3 * DRAWN_AMPLITUDES, "conicity": conicity}
-    figure = contact_figure(wheelset, track, geometry, DRAWN_AMPLITUDES, conicity)
+    figure = contact_figure(wheelset, track, geometry, DRAWN_AMPLITUDES, conicity, shift)
     return [
         str(path)
         for path in (
@@ -199,43 +210,40 @@ def _keep(
     ]
 
 
-def inclination_of(text: str) -> float:
-    """An inclination from "1:40", "1/40", "0.025" or "0"."""
-    match = re.fullmatch(r"1\s*[:/]\s*(\d+(?:\.\d*)?)", text.strip())
-    try:
-        return 1.0 / float(match[1]) if match else float(text)
-    except (ValueError, ZeroDivisionError):
-        raise argparse.ArgumentTypeError(f"{text!r}: give 1:40, 1/40, 0.025 or 0") from None
-
-
 def main(argv: Sequence[str] | None = None) -> int:
     """Run from the command line; exit status."""
     parser = script_parser(str(__doc__).splitlines()[0], settings=False)
     add = parser.add_argument
-    add("--wheel", default="S1002", help="left wheel: name or profile file")
-    add("--rail", default="UIC60", help="left rail: name or profile file")
+    add_profile_options(parser)
     add("--right-wheel", help="right wheel, if it differs")
     add("--right-rail", help="right rail, if it differs")
-    add("--gauge", type=float, default=1.435, help="m, measured 14 mm below the rail tops")
-    add("--origin-half-distance", type=float, help="m, places the rail profiles' origins instead")
-    add("--inclination", type=inclination_of, default=0.025, help="rail inclination, such as 1:40")
-    add("--radius", type=float, default=0.46, help="m, left wheel at the tape circle")
-    add("--right-radius", type=float, help="m, right wheel, if it differs")
-    add("--tape-half-distance", type=float, default=0.75, help="m, axle's centre to tape circle")
+    add("--origin-half-distance", type=float, help="[m], places the rail profiles' origins instead")
+    add("--radius", type=float, default=0.46, help="of the left wheel at the tape circle [m]")
+    add("--right-radius", type=float, help="right wheel, if it differs [m]")
+    add("--tape-half-distance", type=float, default=0.75, help="axle's centre to tape circle [m]")
     add("--amplitudes-mm", type=float, nargs="+", default=list(TABLE_AMPLITUDES_MM), metavar="MM")
     add("--method", choices=METHODS, default=METHODS[0])
-    add("--neglect-roll", action="store_true", help="axle level, as in EN 15302's reference")
+    add(
+        "--shift",
+        choices=SHIFTS,
+        default=SHIFTS[0],
+        help="at rail level, of the axle, roll left out",
+    )
+    add("--neglect-roll", action="store_true", help="the same as --shift level")
 
     def run_arguments(arguments: argparse.Namespace) -> dict[str, Any]:
         values = vars(arguments).copy()
+        smoothing = values.pop("smoothing")
         del values["json"]
+        for name in ("wheel", "rail", "right_wheel", "right_rail"):
+            values[name] = script_profile(values[name], name.removeprefix("right_"), smoothing)
         return run(**values)
 
     return run_script(run_arguments, parser, argv, _print_table)
 
 
 def _print_table(numbers: dict[str, Any]) -> None:
-    print(f"{numbers['wheel']} on {numbers['rail']}")
+    print(f"{numbers['wheel']} on {numbers['rail']}, {SHIFT_TEXTS[numbers['shift']]}")
     print("amplitude [mm]  tan(gamma_e) [-]")
     for amplitude, value in numbers["conicity"].items():
         print(f"{amplitude:>14s}  " + ("none" if value is None else f"{value:.4f}"))

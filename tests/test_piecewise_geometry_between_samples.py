@@ -10,11 +10,10 @@ both sides agree (section 2.2 of the paper; a steep flange may agree at several)
 from __future__ import annotations
 
 import math
-import os
-from pathlib import Path
 
 import numpy as np
 import pytest
+from shared_reference import reference_folder
 
 from exudyn_wheelset import Profile, Track, Wheelset, contact_geometry, piecewise_geometry
 from exudyn_wheelset.contact.curve import curve_point
@@ -24,11 +23,7 @@ from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 from exudyn_wheelset.geometry.piecewise import TOLERANCE_FACTORS, geometry_columns
 from exudyn_wheelset.profiles import load_profile
 
-REFERENCE = Path(
-    os.environ.get(
-        "EXUDYN_WHEELSET_REFERENCE", Path(__file__).resolve().parents[2] / "shared" / "reference"
-    )
-)
+REFERENCE = reference_folder()
 TOLERANCE = 2.0e-6
 MEASURED = [("worn7216.prw", "siteb.prr"), ("worn7813.prw", "siteb.prr"), ("worn7216.prw", "UIC60")]
 PAIRS = [("S1002", "UIC60"), ("AAR_1_20", "UIC60"), ("hollow", "UIC60"), *MEASURED]

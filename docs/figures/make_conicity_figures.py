@@ -18,8 +18,10 @@ import numpy as np
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity
-from exudyn_wheelset.geometry.rigid import contact_geometry
-from exudyn_wheelset.geometry.rolling_radius import rolling_radius_difference
+from exudyn_wheelset.geometry.rolling_radius import (
+    rolling_radius_curve,
+    rolling_radius_difference,
+)
 from exudyn_wheelset.profiles import load_profile
 
 HERE = Path(__file__).resolve().parent
@@ -49,9 +51,10 @@ def spacing_table() -> str:
     cases = [(spacing, METHODS[0]) for spacing in (5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 2e-6)]
     cases += [(1e-5, method) for method in METHODS[1:]]
     for spacing, method in cases:
-        y = shifts(spacing, 8e-3)
-        difference = rolling_radius_difference(wheelset, track, y)
-        values = equivalent_conicity(y, difference, amplitudes, method=method)
+        curve = rolling_radius_curve(wheelset, track, 8e-3, spacing)
+        values = equivalent_conicity(
+            curve.y, curve.rolling_radius_difference, amplitudes, method=method
+        )
         cells = " | ".join(f"{value:.4f}" for value in values)
         rows.append(f"| {1e3 * spacing:g} | {method} | {cells} |")
     return "\n".join(rows)
@@ -69,12 +72,13 @@ def reference_table() -> str:
         wheelset = Wheelset(*BODY, load_profile(folder / f"RUIC519{wheel}.dat"))
         table = np.loadtxt(folder / f"ben_{case}.dat")
         level = rolling_radius_difference(wheelset, track, shifts(2e-5, 9e-3), neglect_roll=True)
-        rolling = contact_geometry(wheelset, track, shifts(2e-5, 9e-3))
-        at_rail = rolling.y + wheelset.radius * rolling.roll
+        at_rail, at_axle = (
+            rolling_radius_curve(wheelset, track, 9e-3, shift=shift) for shift in ("rail", "axle")
+        )
         for axle, y, difference in (
+            ("rolling, y at rail level", at_rail.y, at_rail.rolling_radius_difference),
+            ("rolling, y at the axle", at_axle.y, at_axle.rolling_radius_difference),
             ("level", shifts(2e-5, 9e-3), level),
-            ("rolling, y at rail level", at_rail, rolling.rolling_radius_difference),
-            ("rolling, y at the axle", rolling.y, rolling.rolling_radius_difference),
         ):
             value = equivalent_conicity(y, difference, 1e-3 * table[:, 0])
             off = value - table[:, 1]

@@ -28,6 +28,11 @@ if TYPE_CHECKING:
 FLANGE_ANGLE = np.radians(30.0)
 _WHEEL_LIFT = 16.0
 _BODY = "0.93"
+SHIFT_TEXTS = {
+    "rail": "shift at rail level",
+    "axle": "shift of the axle's centre",
+    "level": "axle held level",
+}
 
 
 def flange_contact(geometry: ContactGeometry) -> np.ndarray:
@@ -182,10 +187,12 @@ def contact_figure(
     geometry: ContactGeometry,
     amplitudes: ArrayLike,
     conicity: ArrayLike,
+    shift: str = "axle",
 ) -> Figure:
     """Return a figure with rolling radii, conicity, contact angles, positions and points.
 
-    geometry: rigid contact over shifts y; amplitudes [m], conicity [-]: shape (n,).
+    geometry: rigid contact over shifts y; amplitudes [m], conicity [-]: shape (n,); shift: what y
+    is the shift of, "rail", "axle" or "level" (geometry/rolling_radius.py).
     """
     figure, axes = new_figure(12.0, 12.0, 3, 2)
     flange = flange_contact(geometry)
@@ -199,8 +206,7 @@ def contact_figure(
         panel.set_xlim(*shown)
     plot_contact_points(axes[2, 0], wheelset, track, geometry, "left")
     plot_contact_points(axes[2, 1], wheelset, track, geometry, "right")
-    level = "" if np.any(geometry.roll) else ", axle held level"
-    figure.suptitle(describe(wheelset, track) + level)
+    figure.suptitle(describe(wheelset, track) + ", " + SHIFT_TEXTS[shift])
     return figure
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -80,7 +81,7 @@ def add_profile_options(
         "--gauge-depth", type=float, default=gauge_depth, help="below the rail's top [m]"
     )
     group.add_argument(
-        "--inclination", type=float, default=inclination, help="of the rails [-], 0.025 is 1:40"
+        "--inclination", type=_inclination, default=inclination, help="of the rails, 1:40 or 0.025"
     )
     group.add_argument(
         "--smoothing",
@@ -97,19 +98,29 @@ def profiles_from(arguments: argparse.Namespace) -> ScriptProfiles:
     Raises ProfileError for a profile that cannot be read.
     """
 
-    def load(source: str | None, kind: str) -> Profile | None:
-        if source is None:
-            return None
-        smoothing = arguments.smoothing if Path(source).is_file() else 0.0
-        return load_profile(source, kind=kind, smoothing=smoothing)
-
     return ScriptProfiles(
-        load(arguments.wheel, "wheel"),
-        load(arguments.rail, "rail"),
+        script_profile(arguments.wheel, "wheel", arguments.smoothing),
+        script_profile(arguments.rail, "rail", arguments.smoothing),
         arguments.gauge,
         arguments.gauge_depth,
         arguments.inclination,
     )
+
+
+def script_profile(source: str | None, kind: str, smoothing: float | str) -> Profile | None:
+    """Load one profile, name or file, as `profiles_from` does; None where none is named."""
+    if source is None:
+        return None
+    return load_profile(source, kind=kind, smoothing=smoothing if Path(source).is_file() else 0.0)
+
+
+def _inclination(text: str) -> float:
+    """An inclination from "1:40", "1/40", "0.025" or "0"."""
+    match = re.fullmatch(r"1\s*[:/]\s*(\d+(?:\.\d*)?)", text.strip())
+    try:
+        return 1.0 / float(match[1]) if match else float(text)
+    except (ValueError, ZeroDivisionError):
+        raise argparse.ArgumentTypeError(f"{text!r}; give 1:40, 1/40, 0.025 or 0") from None
 
 
 def _smoothing(text: str) -> float | str:

@@ -20,6 +20,8 @@ which is exact, at turning points (v = 0) and across jumps too. What is left is 
 straight line, of second order in the spacing of y.
 
 Track frame, SI: y [m] the wheelset's shift, positive to the left; Delta_r = r_left - r_right [m].
+The y of the equation is the path of the wheels on the rails, y + r0 roll of a wheelset that rolls
+about its axle's centre (rolling_radius.py).
 """
 
 from __future__ import annotations
@@ -67,7 +69,8 @@ def equivalent_conicity(
 ) -> FloatArray:
     """Return the equivalent conicity tan(gamma_e) [-] for oscillations of given amplitudes.
 
-    y: shape (n,) [m], increasing, shift to the left; rolling_radius_difference: shape (n,) [m],
+    y: shape (n,) [m], increasing, shift to the left, to be taken at rail level
+    (`rolling_radius_curve` gives both); rolling_radius_difference: shape (n,) [m],
     r_left - r_right; amplitudes: any shape [m], half of peak to peak, positive; contact_spacing
     and radius [m]: e and r0 (they cancel in the conicity). The result has amplitudes' shape.
     method: "integration" (EN 15302's reference); "linear-regression": half the slope of the

@@ -1,17 +1,21 @@
-"""Rolling-radius difference of a wheelset over its lateral shift, with and without roll.
+"""Rolling-radius difference of a wheelset over its lateral shift, and which shift is meant.
 
 Physical idea: a wheelset that shifts to one side rolls on unlike radii. It also rolls about x, as
-the side whose contact climbs its flange lifts. y is the shift of the axle's centre, so roll moves
-the wheels over the rails by a further r0 times the roll angle: 0.02 mm on the tread, millimetres
-on a climbing flange. EN 15302's reference values leave roll out; `neglect_roll` does so too, by
-holding the axle level. docs/conicity.md compares both.
+the side whose contact climbs its flange lifts, and turns about its centre by doing so: where the
+centre has moved by y, the wheels stand y + r0 roll off the rails' middle. That is 0.02 mm more on
+the tread, millimetres more on a climbing flange. So a shift is one of
 
-Track frame, SI, y positive to the left, yaw 0.
+    "rail"   y + r0 roll, where the wheels stand on the rails: what the wheelset's path is;
+    "axle"   y of the axle's centre;
+    "level"  roll left out, each wheel touching alone: what EN 15302's reference values assume.
+
+docs/conicity.md compares them. Track frame, SI, y positive to the left, yaw 0.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,12 +37,52 @@ from exudyn_wheelset.geometry.rigid import (
 FloatArray = NDArray[np.float64]
 
 
+SHIFTS = ("rail", "axle", "level")
+
+
+class ShiftCurve(NamedTuple):
+    """Rolling-radius difference [m] over the shift y [m], and the contact it comes from."""
+
+    y: FloatArray
+    rolling_radius_difference: FloatArray
+    geometry: ContactGeometry
+
+
+def rolling_radius_curve(
+    wheelset: Wheelset,
+    track: Track,
+    reach: float = 15.0e-3,
+    spacing: float = 2.0e-5,
+    shift: str = "rail",
+) -> ShiftCurve:
+    """Return r_left - r_right [m] over the shift, as far as both wheels touch: for conicity.
+
+    reach [m]: largest shift of the axle's centre; spacing [m] between its shifts; shift: "rail",
+    "axle" or "level", see the module's header. `y` and `rolling_radius_difference` of the result
+    are what `equivalent_conicity` takes; `geometry` is the contact over the axle's centre.
+    Raises ContactError where there is no contact even near the centre.
+    """
+    if shift not in SHIFTS:
+        raise WheelsetError(f"shift {shift!r} is unknown: use one of {', '.join(SHIFTS)}")
+    if not 0.0 < spacing <= reach:
+        raise WheelsetError(f"spacing = {spacing!r} m: give a positive length below reach, in m")
+    low, high = contact_range(wheelset, track, reach)
+    y = spacing * np.arange(np.ceil(low / spacing), np.floor(high / spacing) + 1)
+    find = level_contact_geometry if shift == "level" else contact_geometry
+    geometry = find(wheelset, track, y)
+    if shift == "rail":
+        right_radius = wheelset.right_radius or wheelset.radius
+        y = y + 0.5 * (wheelset.radius + right_radius) * geometry.roll
+    return ShiftCurve(y, geometry.rolling_radius_difference, geometry)
+
+
 def rolling_radius_difference(
     wheelset: Wheelset, track: Track, y: ArrayLike, neglect_roll: bool = False
 ) -> FloatArray:
     """Return r_left - r_right [m] of the rigid contact at shifts y, shape (n,) [m], yaw 0.
 
-    neglect_roll holds the axle level, see `level_contact_geometry`.
+    y: of the axle's centre (`rolling_radius_curve` has that at rail level); neglect_roll holds the
+    axle level, see `level_contact_geometry`.
     Raises ContactError where a wheel has left its rail.
     """
     geometry = level_contact_geometry if neglect_roll else contact_geometry
