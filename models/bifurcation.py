@@ -37,7 +37,12 @@ from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    run_script,
+    script_parser,
+    script_profile,
+)
 from exudyn_wheelset.front.settings import load_settings
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch, column_index
@@ -52,7 +57,17 @@ from exudyn_wheelset.vehicles.catalogue import CATALOGUE, entry, vehicle_system
 
 matplotlib.use("Agg")
 
-CHANGES = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination", "damping")
+CHANGES = (
+    "friction",
+    "creep",
+    "gauge",
+    "gauge_depth",
+    "wheel",
+    "rail",
+    "conicity",
+    "inclination",
+    "damping",
+)
 # Ends of the branch, in Hopf speeds.
 RANGE = (0.5, 1.3)
 # Unit in which a displacement is drawn, by the unit in its name.
@@ -296,7 +311,14 @@ def _compute(arguments: argparse.Namespace) -> dict[str, Any]:
     changes = {name: getattr(arguments, name) for name in CHANGES}
     changes = {name: value for name, value in changes.items() if value is not None}
     settings = load_settings(arguments.settings) if arguments.settings else None
-    system = vehicle_system(arguments.vehicle, settings, **changes)
+    profiles = {
+        kind: script_profile(changes[kind], kind, arguments.smoothing)
+        for kind in ("wheel", "rail")
+        if kind in changes
+    }
+    system = vehicle_system(arguments.vehicle, settings, **{**changes, **profiles})
+    if profiles and arguments.smoothing:
+        changes["smoothing"] = arguments.smoothing
     stem = "_".join(
         ["bifurcation", arguments.vehicle, *(f"{k}_{_plain(v)}" for k, v in changes.items())]
     )
@@ -480,12 +502,9 @@ def parser() -> argparse.ArgumentParser:
     )
     made.add_argument("--friction", type=float, help="coefficient of friction")
     made.add_argument("--creep", help="creep law")
-    made.add_argument("--gauge", type=float, help="gauge [m]; it sets the flange clearance")
-    made.add_argument("--wheel", help="wheel profile, name or file")
-    made.add_argument("--rail", help="rail profile, name or file")
     made.add_argument("--conicity", type=float, help="taper of the tread of an AAR wheel")
-    made.add_argument("--inclination", type=float, help="inclination of the rails (0.025 is 1:40)")
     made.add_argument("--damping", type=float, help="damping of the normal contact [s/m]")
+    add_profile_options(made, wheel=None, rail=None, gauge=None, gauge_depth=None, inclination=None)
     made.add_argument(
         "--redraw",
         type=Path,

@@ -25,7 +25,12 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.output import write_csv, write_figure, write_json
 from exudyn_wheelset.front.plots import draw_contact_geometry, draw_wheels_on_rails, new_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    profiles_from,
+    run_script,
+    script_parser,
+)
 from exudyn_wheelset.geometry.piecewise import (
     COLUMNS,
     PiecewiseGeometry,
@@ -36,7 +41,7 @@ from exudyn_wheelset.geometry.rigid import METHODS, ContactGeometry, contact_geo
 
 STEP = 1.0e-5
 COMPARED_SHIFTS = 41
-OPTIONS_OF_A_PAIR = ("rail", "gauge", "inclination", "radius", "tape_half_distance", "half_range")
+OPTIONS_OF_A_PAIR = ("radius", "tape_half_distance", "half_range")
 
 
 @dataclass(frozen=True)
@@ -70,6 +75,7 @@ def pair(
     radius: float = 0.46,
     tape_half_distance: float = 0.75,
     half_range: float = 0.008,
+    gauge_depth: float = 0.014,
 ) -> Pair:
     """Wheel and rail by name or file; lengths [m]. The wheelset's mass has no influence here."""
     if not 1.0e-4 <= half_range <= 0.05:
@@ -81,7 +87,8 @@ def pair(
         wheel=wheel,
         tape_half_distance=tape_half_distance,
     )
-    return Pair(wheelset, Track(rail, gauge=gauge, inclination=inclination), half_range)
+    track = Track(rail, gauge=gauge, gauge_depth=gauge_depth, inclination=inclination)
+    return Pair(wheelset, track, half_range)
 
 
 def default_pairs() -> list[Pair]:
@@ -262,10 +269,9 @@ def show(numbers: dict[str, Any]) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0], settings=False)
-    parser.add_argument("--wheel", help="wheel profile, name or file; default: both pairs above")
-    parser.add_argument("--rail", default="UIC60", help="rail profile, name or file")
-    parser.add_argument("--gauge", type=float, default=1.435, help="[m]")
-    parser.add_argument("--inclination", type=float, default=1.0 / 40.0, help="of the rails [-]")
+    add_profile_options(
+        parser, wheel=None, rail=None, gauge=None, gauge_depth=None, inclination=None
+    )
     parser.add_argument("--radius", type=float, default=0.46, help="at the tape circle [m]")
     parser.add_argument(
         "--tape-half-distance", type=float, default=0.75, help="centre to tape circle [m]"
@@ -273,27 +279,20 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--half-range", type=float, default=0.008, help="largest shift [m]")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
+        profiles = profiles_from(arguments)
+        names = ("gauge", "gauge_depth", "inclination")
+        given = {name: getattr(profiles, name) for name in names}
+        given = {name: value for name, value in given.items() if value is not None}
+        own = {name: getattr(arguments, name) for name in OPTIONS_OF_A_PAIR}
         pairs = None
-        if arguments.wheel is None:
-            given = [
-                f"--{name.replace('_', '-')}"
-                for name in OPTIONS_OF_A_PAIR
-                if getattr(arguments, name) != parser.get_default(name)
-            ]
-            if given:
-                raise WheelsetError(f"{', '.join(given)} needs a wheel: give --wheel as well")
+        if profiles.wheel is None:
+            changed = [*given, *(["rail"] if arguments.rail else [])]
+            changed += [name for name, value in own.items() if value != parser.get_default(name)]
+            if changed:
+                options = ", ".join(f"--{name.replace('_', '-')}" for name in changed)
+                raise WheelsetError(f"{options} needs a wheel: give --wheel as well")
         else:
-            pairs = [
-                pair(
-                    arguments.wheel,
-                    arguments.rail,
-                    arguments.gauge,
-                    arguments.inclination,
-                    arguments.radius,
-                    arguments.tape_half_distance,
-                    arguments.half_range,
-                )
-            ]
+            pairs = [pair(profiles.wheel, profiles.rail or "UIC60", **given, **own)]
         found = results(pairs, progress=not arguments.json)
         numbers = {result.pair.name: result.numbers for result in found}
         for result in found:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,12 @@ from exudyn_wheelset.front.plots import (
     draw_root_locus,
     new_figure,
 )
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    profiles_from,
+    run_script,
+    script_parser,
+)
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
@@ -354,8 +359,7 @@ def show(numbers: dict[str, Any]) -> None:
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0])
     parser.set_defaults(settings=DEFAULT_SETTINGS)
-    parser.add_argument("--wheel", default="S1002", help="wheel profile, name or file")
-    parser.add_argument("--rail", default="UIC60", help="rail profile, name or file")
+    add_profile_options(parser)
     parser.add_argument("--creep", default="shen-hedrick-elkins", help="creep law")
     parser.add_argument("--friction", type=float, default=0.15, help="coefficient of friction")
     parser.add_argument("--amplitude", type=float, default=AMPLITUDE, help="of the start [m]")
@@ -367,12 +371,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         if not 0.01 <= arguments.duration <= 3600.0:
             raise WheelsetError(f"duration = {arguments.duration!r} s: give 0.01 to 3600 s")
         set_duration(settings, arguments.duration)
-        truck = dtu_truck(
-            arguments.wheel,
-            arguments.rail,
-            creep=arguments.creep,
-            friction=arguments.friction,
-        )
+        profiles = profiles_from(arguments)
+        truck = dtu_truck(profiles.wheel, creep=arguments.creep, friction=arguments.friction)
+        truck = replace(truck, track=profiles.track)
         progress = not arguments.json
         seconds = warm_up()
         if progress:

@@ -26,7 +26,12 @@ from exudyn_wheelset.coupling.create import SENSOR_VALUES, WheelsetItems
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_csv, write_figure, write_json
 from exudyn_wheelset.front.plots import draw_wheelset_motion, new_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    profiles_from,
+    run_script,
+    script_parser,
+)
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
 from exudyn_wheelset.geometry.rigid import contact_geometry
@@ -63,6 +68,7 @@ def vehicle(
     gauge: float | None = None,
     inclination: float | None = None,
     driven: bool = False,
+    gauge_depth: float | None = None,
     **contact: Any,
 ) -> WheelsetOnFrame:
     """The paper's wheelset, with other profiles, track or contact where they are given."""
@@ -75,15 +81,13 @@ def vehicle(
                 given.mass, given.inertia, given.radius, wheel, given.tape_half_distance
             ),
         )
-    if not (rail is None and gauge is None and inclination is None):
+    given_track = {"gauge": gauge, "gauge_depth": gauge_depth, "inclination": inclination}
+    changed = {name: value for name, value in given_track.items() if value is not None}
+    if changed or rail is not None:
         track = model.track
+        own = {name: getattr(track, name) for name in given_track}
         model = replace(
-            model,
-            track=Track(
-                track.rail if rail is None else rail,
-                gauge=track.gauge if gauge is None else gauge,
-                inclination=track.inclination if inclination is None else inclination,
-            ),
+            model, track=Track(track.rail if rail is None else rail, **{**own, **changed})
         )
     return model
 
@@ -370,10 +374,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0])
     parser.set_defaults(settings=DEFAULT_SETTINGS)
     parser.add_argument("--set", type=int, choices=(1, 2, 3), default=1, help="springs of Table 1")
-    parser.add_argument("--wheel", help="wheel profile, name or file; default: the paper's")
-    parser.add_argument("--rail", help="rail profile, name or file; default: the paper's")
-    parser.add_argument("--gauge", type=float, help="[m]; default: the paper's")
-    parser.add_argument("--inclination", type=float, help="of the rails [-]; default: 1/40")
+    add_profile_options(
+        parser,
+        wheel=paper.WHEEL,
+        rail=paper.RAIL,
+        gauge=paper.GAUGE,
+        inclination=paper.INCLINATION,
+    )
     parser.add_argument(
         "--speed", type=float, nargs="+", help="[m/s]; default: 0.85 and 1.15 of the critical"
     )
@@ -394,13 +401,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         contact = {"creep": arguments.creep}
         if arguments.friction is not None:
             contact["friction"] = arguments.friction
+        profiles = profiles_from(arguments)
         model = vehicle(
             arguments.set,
-            arguments.wheel,
-            arguments.rail,
-            arguments.gauge,
-            arguments.inclination,
+            profiles.wheel,
+            profiles.rail,
+            profiles.gauge,
+            profiles.inclination,
             arguments.driven,
+            profiles.gauge_depth,
             **contact,
         )
         progress = not arguments.json

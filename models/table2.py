@@ -12,7 +12,7 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,8 +21,15 @@ from tqdm import tqdm
 
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.front.output import write_figure, write_json
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import (
+    ScriptProfiles,
+    add_profile_options,
+    profiles_from,
+    run_script,
+    script_parser,
+)
 from exudyn_wheelset.front.settings import changed_settings, load_settings
+from exudyn_wheelset.profiles import load_profile
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import root_locus
 from exudyn_wheelset.vehicles import paper_wheelset as paper
@@ -34,18 +41,23 @@ PUBLISHED = {
 }
 ROWS = ("mohan", "idealized", "profiled", "exudyn", "profiled_free_spin", "exudyn_free_spin")
 SEARCHED_SPEEDS = (10.0, 300.0)
+PAPER_PROFILES = ScriptProfiles(
+    load_profile(paper.WHEEL), load_profile(paper.RAIL), paper.GAUGE, 0.014, paper.INCLINATION
+)
 
 
-def vehicle(row: str, spring_set: int) -> Any:
-    """The model behind a cell of the table."""
+def vehicle(row: str, spring_set: int, profiles: ScriptProfiles = PAPER_PROFILES) -> Any:
+    """The model behind a cell of the table; profiles: of the rows that have any."""
     if row.startswith("exudyn"):
-        return paper.paper_wheelset(spring_set, driven=row == "exudyn")
-    if row == "profiled_free_spin":
-        return paper.paper_lateral_wheelset("profiled", spring_set, free_spin=True)
-    return paper.paper_lateral_wheelset(row, spring_set)
+        model = paper.paper_wheelset(spring_set, driven=row == "exudyn", wheel=profiles.wheel)
+        return replace(model, track=profiles.track)
+    code = row.removesuffix("_free_spin")
+    return paper.paper_lateral_wheelset(
+        code, spring_set, free_spin=code != row, **profiles.__dict__
+    )
 
 
-def assumed() -> dict[str, Any]:
+def assumed(profiles: ScriptProfiles = PAPER_PROFILES) -> dict[str, Any]:
     """What the paper leaves out and is set here, once for all cells (docs/table2.md)."""
     given = asdict(paper.paper_parameters(1))
     names = (
@@ -60,17 +72,21 @@ def assumed() -> dict[str, Any]:
     )
     return {
         **{name: given[name] for name in names},
-        "wheel": paper.WHEEL,
-        "rail": paper.RAIL,
-        "gauge": paper.GAUGE,
-        "inclination": paper.INCLINATION,
+        "wheel": profiles.wheel.name,
+        "rail": profiles.rail.name,
+        "gauge": profiles.gauge,
+        "inclination": profiles.inclination,
         "tape_half_distance": paper.TAPE_HALF_DISTANCE,
         "contact_damping": paper.CONTACT_DAMPING,
         "spin": "V/r0, r0 the nominal radius, as in equations (2) and (4); free in *_free_spin",
     }
 
 
-def run(rows: Sequence[str] = ROWS, progress: bool = False) -> dict[str, Any]:
+def run(
+    rows: Sequence[str] = ROWS,
+    progress: bool = False,
+    profiles: ScriptProfiles = PAPER_PROFILES,
+) -> dict[str, Any]:
     """Critical speeds [m/s] of the three spring sets by row, and what was assumed."""
     numbers: dict[str, Any] = {}
     bar = tqdm(total=3 * len(rows), disable=not progress, unit="cell", desc="critical speeds")
@@ -78,14 +94,16 @@ def run(rows: Sequence[str] = ROWS, progress: bool = False) -> dict[str, Any]:
         for row in rows:
             numbers[row] = []
             for spring_set in (1, 2, 3):
-                critical = linear_critical_speed(vehicle(row, spring_set), *SEARCHED_SPEEDS)
+                critical = linear_critical_speed(
+                    vehicle(row, spring_set, profiles), *SEARCHED_SPEEDS
+                )
                 numbers[row].append(round(critical.speed, 3))
                 bar.update()
-    numbers["assumed"] = assumed()
+    numbers["assumed"] = assumed(profiles)
     return numbers
 
 
-def draw(path: Path, numbers: dict[str, Any]) -> Path:
+def draw(path: Path, numbers: dict[str, Any], profiles: ScriptProfiles = PAPER_PROFILES) -> Path:
     """Root locus of the Exudyn model and bars of the table."""
     import matplotlib
 
@@ -94,7 +112,7 @@ def draw(path: Path, numbers: dict[str, Any]) -> Path:
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6))
     speeds = np.linspace(10.0, 60.0, 51)
-    locus = root_locus(paper.paper_wheelset(1), speeds)
+    locus = root_locus(vehicle("exudyn", 1, profiles), speeds)
     roots = np.asarray(locus.eigenvalues)
     shown = (roots.imag > 1.0) & (roots.imag < 60.0)
     points = left.scatter(
@@ -153,6 +171,13 @@ def show(numbers: dict[str, Any]) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0])
+    add_profile_options(
+        parser,
+        wheel=paper.WHEEL,
+        rail=paper.RAIL,
+        gauge=paper.GAUGE,
+        inclination=paper.INCLINATION,
+    )
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
         settings = load_settings(arguments.settings)
@@ -160,7 +185,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         if not arguments.json:
             print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
         start = time.perf_counter()
-        numbers = run(progress=not arguments.json)
+        profiles = profiles_from(arguments)
+        numbers = run(progress=not arguments.json, profiles=profiles)
         taken = time.perf_counter() - start
         write_json(
             arguments.out / "table2.json",
@@ -169,7 +195,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             settings=changed_settings(settings),
             seconds=taken,
         )
-        draw(arguments.out / "table2.png", numbers)
+        draw(arguments.out / "table2.png", numbers, profiles)
         return numbers
 
     return run_script(work, parser, argv, show)

@@ -35,6 +35,8 @@ WITH_SETTINGS = [
     for name in SCRIPTS
     if "settings=False" not in (ROOT / "models" / f"{name}.py").read_text(encoding="utf-8")
 ]
+# Kaas-Petersen's bogie is cones on lines.
+WITHOUT_PROFILES = ("cooperrider_bogie",)
 SETTINGS = sorted((ROOT / "runs").glob("*.json"))
 
 
@@ -80,6 +82,14 @@ def test_help(name, capsys):
     assert "--json" in text and "--out" in text
 
 
+@pytest.mark.parametrize("name", [name for name in SCRIPTS if name not in WITHOUT_PROFILES])
+def test_all_scripts_on_profiles_take_the_same_options(name, capsys):
+    assert call(name, "--help") == 0
+    text = capsys.readouterr().out
+    for option in ("wheel", "rail", "gauge", "gauge-depth", "inclination", "smoothing"):
+        assert f"--{option} " in text
+
+
 @pytest.mark.parametrize("name", SCRIPTS)
 def test_unknown_option(name, capsys):
     assert call(name, "--no-such-option") == 2
@@ -110,6 +120,12 @@ def test_missing_settings_file(name, tmp_path, capsys):
         ("contact_geometry", ["--wheel", "S1003"], "S1002"),
         ("contact_geometry", ["--wheel", "UIC60"], "wheel"),
         ("contact_geometry", ["--gauge", "1.43"], "--wheel"),
+        ("contact_geometry", ["--rail", "UIC60"], "--wheel"),
+        ("conicity", ["--wheel", "S1002", "--gauge-depth", "0.5"], "gauge_depth"),
+        ("single_wheelset", ["--wheel", "S1003"], "S1002"),
+        ("simple_truck", ["--rail", "UIC61"], "UIC60"),
+        ("bifurcation", ["--wheel", "S1003"], "S1002"),
+        ("table2", ["--wheel", "S1003"], "S1002"),
         ("contact_geometry", ["--wheel", "S1002", "--half-range", "8"], "metres"),
         ("contact_geometry", ["--wheel", "S1002", "--gauge", "1435"], "in m"),
         ("single_wheelset", ["--offset", "1"], "metres"),

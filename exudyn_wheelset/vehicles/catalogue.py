@@ -32,7 +32,8 @@ class Changes:
 
     friction [-]; creep: name of a law; gauge [m] between the rails, which sets the flange
     clearance; wheel, rail: profile, name or path; conicity [-] of the tread: an AAR wheel of that
-    taper takes the wheel's place; inclination [-] of the rails; damping [s/m] of the normal
+    taper takes the wheel's place; inclination [-] of the rails; gauge_depth [m] below their tops at
+    which the gauge is measured; damping [s/m] of the normal
     contact, which takes up the energy of flange impacts.
     """
 
@@ -44,6 +45,7 @@ class Changes:
     conicity: float | None = None
     inclination: float | None = None
     damping: float | None = None
+    gauge_depth: float | None = None
 
     def __post_init__(self) -> None:
         if self.wheel is not None and self.conicity is not None:
@@ -167,8 +169,8 @@ class Cooperrider:
 def _on_track(made: Any, changes: Changes) -> Any:
     """A vehicle with its track changed."""
     track = made.track
-    changed = {"gauge": track.gauge, "inclination": track.inclination}
-    changed |= changes.given("gauge", "inclination")
+    names = ("gauge", "gauge_depth", "inclination")
+    changed = {name: getattr(track, name) for name in names} | changes.given(*names)
     return replace(made, track=Track(changes.rail or track.rail, **changed))
 
 
@@ -193,7 +195,7 @@ def _paper_lateral(spring_set: int) -> Callable[[Changes], Any]:
             free_spin=True,
             parameters=paper_parameters(spring_set, **changes.given("friction")),
             wheel=changes.tread(paper.WHEEL),
-            **changes.given("creep", "gauge", "rail", "inclination"),
+            **changes.given("creep", "gauge", "gauge_depth", "rail", "inclination"),
         )
 
     return make
@@ -221,7 +223,8 @@ def _truck(changes: Changes) -> Truck:
 # [N]: with it the source's friction of 0.15 gives its 10 kN a wheel.
 COOPERRIDER_WHEEL_LOAD = 10.0e3 / 0.15
 
-_LATERAL = ("friction", "creep", "gauge", "wheel", "rail", "conicity", "inclination")
+_TRACK = ("gauge", "gauge_depth", "inclination")
+_LATERAL = ("friction", "creep", *_TRACK, "wheel", "rail", "conicity")
 _ON_PROFILES = (*_LATERAL, "damping")
 _PAPER_SEARCHED = {1: (10.0, 100.0), 2: (40.0, 200.0), 3: (100.0, 320.0)}
 
