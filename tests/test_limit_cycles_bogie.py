@@ -180,7 +180,7 @@ def test_half_of_a_symmetric_orbit_tells_all(branch, hopf):
     equations = Collocation(SYSTEM, start.period, 1.0)
     at = replace(whole.orbits[near], speed=start.speed)
     orbit = solve_orbit(equations, at, speed_row(at, 14)).orbit
-    multipliers, _ = equations.multipliers(orbit, equations.condense(orbit))
+    multipliers = equations.multipliers(orbit, equations.condense(orbit)).values
     expected = np.abs(branch.multipliers[index][:5])
     np.testing.assert_allclose(np.abs(multipliers[:5]), expected, atol=1e-3)
     assert orbit.period == pytest.approx(start.period, rel=1e-6)

@@ -75,9 +75,9 @@ def test_period_amplitude_and_multiplier(mu):
     assert orbit.period == pytest.approx(period, abs=1e-8)
     # Parabolas through samples a 960th of a period apart.
     assert orbit.half_peak_to_peak()[0] == pytest.approx(amplitude, rel=1e-5)
-    multipliers, error = equations.multipliers(orbit, equations.condense(orbit))
-    assert multipliers[0] == pytest.approx(multiplier, abs=1e-6)
-    assert error < 1e-6
+    found = equations.multipliers(orbit, equations.condense(orbit))
+    assert found.values[0] == pytest.approx(multiplier, abs=1e-6)
+    assert found.error < 1e-6
 
 
 def test_order_of_convergence():

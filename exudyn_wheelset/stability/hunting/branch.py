@@ -110,8 +110,11 @@ class Branch:
     speed           (points,) [m/s]
     period          (points,) [s]
     amplitude       (points, displacements) half of peak to peak [m or rad]; columns also by name
-    stable          (points,) whether all multipliers but the trivial one are inside the unit circle
-    multipliers     (points, n - 1) Floquet multipliers by falling size, the trivial one left out
+    stable          (points,) whether the cycle is stable, for certain
+    uncertain       (points,) where neither stable nor unstable is certain: a multiplier is nearer
+                    to the unit circle than the trivial one to 1
+    multipliers     (points, k) Floquet multipliers by falling size, the trivial one left out and
+                    those of free motion along the track
     trivial_error   (points,) distance of the trivial multiplier from 1: an accuracy check
     folds           where the branch turns back, in the order of the points
     changes         other changes of stability
@@ -127,6 +130,7 @@ class Branch:
     period: Array
     amplitude: NamedColumns
     stable: Array
+    uncertain: Array
     multipliers: Array
     trivial_error: Array
     folds: list[Fold]
@@ -147,6 +151,14 @@ class Branch:
         if self.first_outcome is None:
             return str(self.outcome)
         return f"first point: {self.first_outcome}; last point: {self.outcome}"
+
+    @property
+    def stability(self) -> list[bool | None]:
+        """Whether each cycle is stable: True, False, or None where it is uncertain."""
+        return [
+            None if doubt else bool(steady)
+            for steady, doubt in zip(self.stable, self.uncertain, strict=True)
+        ]
 
     def orbit(self, index: int) -> Orbit:
         """The motion at a point of the branch."""
@@ -326,6 +338,7 @@ _ARRAYS = (
     "period",
     "amplitude",
     "stable",
+    "uncertain",
     "multipliers",
     "trivial_error",
 )

@@ -31,6 +31,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.stability.hunting.floquet import Multipliers, floquet_multipliers
 from exudyn_wheelset.stability.hunting.orbit import Basis, Orbit, OrbitError, basis_of, windows_of
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
 
@@ -332,21 +333,10 @@ class Collocation:
         closure = np.ones(size) if orbit.mirror is None else orbit.mirror
         return Condensed(inverse, influence[:, :, :size], points, closure, gradients)
 
-    def multipliers(self, orbit: Orbit, condensed: Condensed) -> tuple[Array, float]:
-        """Floquet multipliers (n - 1,) by falling size, and the error of the trivial one.
-
-        The direction of motion x'(0) is mapped to itself; the others are the eigenvalues of the
-        monodromy matrix on the space across it, so that a fold, where a second multiplier passes
-        1, cannot be confused with the trivial one. The error is |M e - e|, e = x'(0)/|x'(0)|.
-        """
+    def multipliers(self, orbit: Orbit, condensed: Condensed) -> Multipliers:
+        """Floquet multipliers of the orbit without the trivial one (see `floquet`)."""
         rate = self._rates(orbit.states[:1], orbit.speed)[0]
-        along = rate / np.linalg.norm(rate)
-        matrix = condensed.monodromy
-        basis = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))[0]
-        across = basis[:, 1 : len(along)]
-        values = np.linalg.eigvals(across.T @ matrix @ across)
-        order = np.argsort(-np.abs(values), kind="stable")
-        return values[order], float(np.linalg.norm(matrix @ along - along))
+        return floquet_multipliers(condensed.monodromy, rate, self.system)
 
     def _jacobians(self, states: Array, speed: float) -> Array:
         self.jacobians += len(states)

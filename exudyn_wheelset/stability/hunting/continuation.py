@@ -31,36 +31,34 @@ from exudyn_wheelset.stability.hunting.collocation import (
     Functional,
 )
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
-from exudyn_wheelset.stability.hunting.corrector import Solution, solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.floquet import Multipliers
+from exudyn_wheelset.stability.hunting.folds import (
+    Base,
+    base_at,
+    extremum_among,
+    fold_between,
+    parts,
+    solve_from,
+    unit,
+)
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_mesh
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
-from exudyn_wheelset.systems.system import Array
 
 
 @dataclass(frozen=True, eq=False)
 class Point:
     """A converged orbit of a branch.
 
-    multipliers     (n - 1,) Floquet multipliers without the trivial one, by falling size
-    trivial_error   distance of the trivial multiplier from 1: an accuracy check
+    multipliers     Floquet multipliers
     slope           speed component of the unit tangent; its sign changes at a fold
     is_fold         whether the speed has its extremum along the branch here
     """
 
     orbit: Orbit
-    multipliers: Array
-    trivial_error: float
+    multipliers: Multipliers
     slope: float
     is_fold: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class _Base:
-    """A point to step from: the orbit, the equations there and the unit tangent."""
-
-    orbit: Orbit
-    condensed: Condensed
-    tangent: Direction
 
 
 def hopf_start(
@@ -90,7 +88,7 @@ def hopf_start(
         states[-1] = states[0] if mirror is None else mirror * states[0]
         guess = Orbit(mesh, states, 2.0 * np.pi / frequency, float(hopf.speed), mirror)
         resting = replace(guess, states=np.tile(hopf.state, (count + 1, 1)))
-        tangent = _unit(equations, mesh, equations.difference(guess, resting))
+        tangent = unit(equations, mesh, equations.difference(guess, resting))
         row = equations.inner(mesh, tangent)
         try:
             found = solve_orbit(
@@ -169,9 +167,9 @@ class _Follower:
         else:
             row = speed_row(orbit, size)
             row = Functional(row.orbit, 0.0, float(heading))
-        self.base = self._base(orbit, condensed, row)
+        self.base = base_at(self.equations, orbit, condensed, row)
         self.first, self.away = self.base, False
-        self.behind: Orbit | None = None
+        self.behind: Base | None = None
         self._keep(self._point(self.base))
         self.step = 0.3 * self._largest_step()
         self.size = self.equations.size(orbit)
@@ -198,14 +196,16 @@ class _Follower:
         guess = equations.moved(base.orbit, tangent, length)
         end = self._end_passed(guess.speed)
         if end is None:
-            found = self._solve(guess, row, base)
+            found = solve_from(equations, settings, guess, row, base)
             end = self._end_passed(found.orbit.speed)
         if end is not None:
             length *= (end - base.orbit.speed) / (guess.speed - base.orbit.speed)
             if not length > 0.0:
                 return self._left(end)
             guess = equations.moved(base.orbit, tangent, length)
-            found = self._solve(guess, speed_row(base.orbit, len(equations.scales)), base)
+            found = solve_from(
+                equations, settings, guess, speed_row(base.orbit, len(equations.scales)), base
+            )
         orbit = found.orbit
         size = equations.size(orbit)
         if not 0.4 < size / equations.size(guess) < 2.5:
@@ -215,8 +215,8 @@ class _Follower:
         if self._turns_back(orbit):
             raise OrbitError("the orbits lead back along the branch")
         condensed = equations.condense(orbit)
-        new = self._base(orbit, condensed, equations.inner(orbit.mesh, tangent))
-        cosine = equations.inner(orbit.mesh, tangent)(*_parts(new.tangent))
+        new = base_at(equations, orbit, condensed, equations.inner(orbit.mesh, tangent))
+        cosine = equations.inner(orbit.mesh, tangent)(*parts(new.tangent))
         # At a corner of the branch (a contact that sets in) every step turns by as much: the
         # smallest ones are let through.
         large = self.step > settings.corner * self._largest_step()
@@ -226,9 +226,13 @@ class _Follower:
         excursion = 0.25 * length * max(abs(tangent.speed), abs(new.tangent.speed))
         visible = excursion * equations.speed_unit > settings.fold_visible * max(1.0, orbit.speed)
         if visible and new.tangent.speed * tangent.speed < 0.0:
-            self._locate_fold(base, new, length)
-        self.behind, self.base = base.orbit, new
+            fold = fold_between(equations, settings, base, new, length)
+            turned = (fold.orbit.speed - base.orbit.speed) * (orbit.speed - fold.orbit.speed) <= 0.0
+            if turned:
+                self._keep(self._point(fold, is_fold=True))
         self._keep(self._point(new))
+        self._look_back(new)
+        self.behind, self.base = base, new
         if end is not None:
             return self._left(end)
         outcome = self._over_limits(orbit, size)
@@ -236,10 +240,20 @@ class _Follower:
             return outcome
         effort = found.iterations + 3 * found.refreshed
         self.step *= 1.5 if effort <= 10 else 1.0 if effort <= 15 else 0.7
-        intervals = self._intervals_wanted(self.points[-1].trivial_error)
+        intervals = self._intervals_wanted(self.points[-1].multipliers.error)
         if len(self.points) % settings.adapt_every == 0 or intervals > len(orbit.mesh) - 1:
             self._adapt(intervals)
         return None
+
+    def _look_back(self, new: Base) -> None:
+        """Insert a fold that the last three orbits show and the tangents have not."""
+        if self.behind is None or any(point.is_fold for point in self.points[-3:]):
+            return
+        found = extremum_among(self.equations, self.settings, (self.behind, self.base, new))
+        if found is not None:
+            fold, before_middle = found
+            place = len(self.points) - (2 if before_middle else 1)
+            self.points.insert(place, self._point(fold, is_fold=True))
 
     def _intervals_wanted(self, error: float) -> int:
         settings, count = self.settings, len(self.base.orbit.mesh) - 1
@@ -255,10 +269,10 @@ class _Follower:
         if self.behind is None:
             return False
         equations, here = self.equations, self.base.orbit
-        last = equations.difference(here, self.behind.on_mesh(here.mesh))
+        last = equations.difference(here, self.behind.orbit.on_mesh(here.mesh))
         new = equations.difference(orbit, here)
         lengths = equations.norm(here.mesh, last) * equations.norm(here.mesh, new)
-        return equations.inner(here.mesh, last)(*_parts(new)) < -0.5 * lengths
+        return equations.inner(here.mesh, last)(*parts(new)) < -0.5 * lengths
 
     def _largest_step(self) -> float:
         """Arclength in which the orbit changes by `growth` or the speed by a step of the range."""
@@ -270,67 +284,14 @@ class _Follower:
         by_speed = step / max(abs(base.tangent.speed), 1e-12)
         return min(by_size, by_speed)
 
-    def _base(self, orbit: Orbit, condensed: Condensed, row: Functional) -> _Base:
-        equations = self.equations
-        shape = (len(orbit.mesh) - 1, orbit.degree, len(equations.scales))
-        tangent = condensed.solve(np.zeros(shape), [equations.phase(orbit), row], [0.0, 1.0])
-        return _Base(orbit, condensed, _unit(equations, orbit.mesh, tangent))
-
-    def _point(self, base: _Base, is_fold: bool = False) -> Point:
-        multipliers, error = self.equations.multipliers(base.orbit, base.condensed)
-        return Point(base.orbit, multipliers, error, base.tangent.speed, is_fold)
+    def _point(self, base: Base, is_fold: bool = False) -> Point:
+        multipliers = self.equations.multipliers(base.orbit, base.condensed)
+        return Point(base.orbit, multipliers, base.tangent.speed, is_fold)
 
     def _keep(self, point: Point) -> None:
         self.points.append(point)
         if self.report is not None:
             self.report(point)
-
-    def _locate_fold(self, left: _Base, right: _Base, length: float) -> None:
-        """Insert the point between two bases where the tangent's speed component vanishes.
-
-        False position with halved weights (Illinois): the speed at the root is known to the
-        square of the root's error where f is smooth, to the width of the bracket at a corner.
-        """
-        equations, settings = self.equations, self.settings
-        row = equations.inner(left.orbit.mesh, left.tangent)
-        lower, upper = 0.0, length
-        below, above = left.tangent.speed, right.tangent.speed
-        start, best = left, left if abs(below) < abs(above) else right
-        weights = [below, above]
-        goal = settings.fold_tolerance * max(1.0, abs(left.orbit.speed))
-        last_side = 0
-        quiet, last_speed, last_slope = 0, np.inf, np.inf
-        for _ in range(20):
-            where = (lower * weights[1] - upper * weights[0]) / (weights[1] - weights[0])
-            guess = equations.moved(left.orbit, left.tangent, where)
-            if start is not left:
-                way = equations.difference(start.orbit, left.orbit)
-                shift = (where - row(*_parts(way))) / row(*_parts(start.tangent))
-                guess = equations.moved(start.orbit, start.tangent, shift)
-            try:
-                found = self._solve(guess, row, start)
-                condensed = equations.condense(found.orbit)
-                start = self._base(found.orbit, condensed, row)
-            except OrbitError:
-                break
-            best, slope = start, start.tangent.speed
-            # Where f has corners the slope jumps about zero, but the speed settles all the same.
-            slow = abs(slope) > 0.2 * abs(last_slope)
-            quiet = quiet + 1 if slow and abs(best.orbit.speed - last_speed) < goal else 0
-            last_speed, last_slope = best.orbit.speed, slope
-            if abs(slope) < 1e-6 * (abs(below) + abs(above)) or quiet > 1:
-                break
-            if slope * below > 0.0:
-                lower, weights[0] = where, slope
-                weights[1] *= 0.5 if last_side == 1 else 1.0
-                last_side = 1
-            else:
-                upper, weights[1] = where, slope
-                weights[0] *= 0.5 if last_side == -1 else 1.0
-                last_side = -1
-            if upper - lower < 1e-9 * length:
-                break
-        self._keep(self._point(best, is_fold=True))
 
     def _adapt(self, intervals: int) -> None:
         """Move the base to a mesh that spreads the error, with its Jacobians interpolated."""
@@ -338,9 +299,9 @@ class _Follower:
         mesh = balanced_mesh(base.orbit, equations.scales, intervals)
         orbit = base.orbit.on_mesh(mesh)
         ahead = equations.moved(base.orbit, base.tangent, 1.0).on_mesh(mesh)
-        tangent = _unit(equations, mesh, equations.difference(ahead, orbit))
+        tangent = unit(equations, mesh, equations.difference(ahead, orbit))
         gradients = base.condensed.gradients.on_mesh(mesh, equations.basis(orbit.degree).nodes)
-        self.base = _Base(orbit, equations.assemble(orbit, gradients), tangent)
+        self.base = Base(orbit, equations.assemble(orbit, gradients), tangent)
 
     def _over_limits(self, orbit: Orbit, size: float) -> Outcome | None:
         settings = self.settings
@@ -369,17 +330,6 @@ class _Follower:
         near = change < 0.03 and distance < 2.0 / self.settings.speed_steps
         return self.away and passed and same_way and near
 
-    def _solve(self, guess: Orbit, row: Functional, base: _Base) -> Solution:
-        return solve_orbit(
-            self.equations,
-            guess,
-            row,
-            condensed=base.condensed,
-            reference=base.orbit,
-            tolerance=self.settings.tolerance,
-            roughness=self.settings.roughness,
-        )
-
     def _end_passed(self, speed: float) -> float | None:
         """The end of the speed range that lies between the base and `speed`, if there is one."""
         if speed > self.high and speed > self.base.orbit.speed:
@@ -391,14 +341,6 @@ class _Follower:
     def _left(self, end: float) -> Outcome:
         side = Ending.LOWER_END if end == self.low else Ending.UPPER_END
         return Outcome(side, f"{end:g} m/s")
-
-
-def _parts(direction: Direction) -> tuple[Array, float, float]:
-    return direction.orbit, direction.period, direction.speed
-
-
-def _unit(equations: Collocation, mesh: Array, direction: Direction) -> Direction:
-    return direction * (1.0 / equations.norm(mesh, direction))
 
 
 def _failure(error: OrbitError) -> Outcome:

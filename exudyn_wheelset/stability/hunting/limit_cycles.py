@@ -120,11 +120,13 @@ def gather(
     indices = list(system.displacement_indices)
     names = [system.state_names[index] for index in indices]
     amplitudes = np.array([point.orbit.half_peak_to_peak()[indices] for point in points])
-    multipliers = np.array([point.multipliers for point in points], dtype=complex)
-    sizes = np.abs(multipliers)
+    multipliers = _table([point.multipliers.values for point in points])
+    verdicts = [point.multipliers.stable(settings.stability_margin) for point in points]
     # A fold is stable from one side only, which is not stable.
-    marginal = np.array([point.is_fold for point in points])
-    stable = np.all(sizes < 1.0 + settings.stability_margin, axis=1) & ~marginal
+    stable = np.array([v is True and not p.is_fold for v, p in zip(verdicts, points, strict=True)])
+    uncertain = np.array(
+        [v is None and not p.is_fold for v, p in zip(verdicts, points, strict=True)]
+    )
     folds: list[Fold] = []
     for index, point in enumerate(points):
         if point.is_fold:
@@ -145,8 +147,9 @@ def gather(
         period=np.array([point.orbit.period for point in points]),
         amplitude=NamedColumns(amplitudes, names),
         stable=stable,
+        uncertain=uncertain,
         multipliers=multipliers,
-        trivial_error=np.array([point.trivial_error for point in points]),
+        trivial_error=np.array([point.multipliers.error for point in points]),
         folds=folds,
         changes=_stability_changes(points, settings.stability_margin),
         hopf=hopf,
@@ -155,6 +158,14 @@ def gather(
         orbits=[point.orbit.whole() for point in points],
         record=record,
     )
+
+
+def _table(rows: list[Array]) -> Array:
+    """Multipliers (points, k), complex; rows with fewer (neutral ones left out) end in zeros."""
+    table = np.zeros((len(rows), max(map(len, rows))), dtype=complex)
+    for row, values in zip(table, rows, strict=True):
+        row[: len(values)] = values
+    return table
 
 
 def _both_ways(
@@ -178,14 +189,16 @@ def _stability_changes(points: list[Point], margin: float) -> list[StabilityChan
         before, after = points[index - 1], points[index]
         if before.is_fold or after.is_fold:
             continue
-        counts = [int(np.sum(np.abs(p.multipliers) > 1.0 + margin)) for p in (before, after)]
+        if None in (before.multipliers.stable(margin), after.multipliers.stable(margin)):
+            continue
+        counts = [int(np.sum(np.abs(p.multipliers.values) > 1.0 + margin)) for p in (before, after)]
         if counts[0] == counts[1]:
             continue
         position = min(counts)
-        pair = [np.abs(p.multipliers)[position] - 1.0 for p in (before, after)]
+        pair = [np.abs(p.multipliers.values)[position] - 1.0 for p in (before, after)]
         fraction = pair[0] / (pair[0] - pair[1])
         speed = before.orbit.speed + fraction * (after.orbit.speed - before.orbit.speed)
-        crossing = (before if abs(pair[0]) < abs(pair[1]) else after).multipliers[position]
+        crossing = (before if abs(pair[0]) < abs(pair[1]) else after).multipliers.values[position]
         if abs(crossing.imag) > 1e-3:
             found.append(StabilityChange(float(speed), "torus", index))
         elif crossing.real > 0.0:
