@@ -27,3 +27,7 @@ class AnalysisError(WheelsetError):
 
 class WheelsetWarning(UserWarning):
     """A result that is given but not to be trusted; has the number, its limit and the mend."""
+
+
+class FileError(WheelsetError):
+    """A result that cannot be written: the file and the reason."""

@@ -44,8 +44,9 @@ from exudyn_wheelset.front.script import (
     script_profile,
 )
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending
-from exudyn_wheelset.stability.hunting.branch import Branch, column_index
+from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance

@@ -29,7 +29,7 @@ import numpy as np
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.contact_plots import SHIFT_TEXTS, contact_figure, flange_contact
-from exudyn_wheelset.front.output import write_csv, write_figure
+from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
     run_script,
@@ -40,6 +40,7 @@ from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity, kine
 from exudyn_wheelset.geometry.rigid import ContactGeometry
 from exudyn_wheelset.geometry.rolling_radius import SHIFTS, rolling_radius_curve
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.results.files import write_columns
 
 ProfileSource = Profile | str | PathLike
 
@@ -204,8 +205,8 @@ def _keep(
         str(path)
         for path in (
             write_figure(out / f"{stem}.png", figure),
-            write_csv(out / f"{stem}_shifts.csv", columns),
-            write_csv(out / f"{stem}_amplitudes.csv", by_amplitude),
+            write_columns(out / f"{stem}_shifts.csv", columns),
+            write_columns(out / f"{stem}_amplitudes.csv", by_amplitude),
         )
     ]
 

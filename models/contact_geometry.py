@@ -23,7 +23,7 @@ from tqdm import tqdm
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.output import write_csv, write_figure, write_json
+from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import draw_contact_geometry, draw_wheels_on_rails, new_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
@@ -38,6 +38,7 @@ from exudyn_wheelset.geometry.piecewise import (
     piecewise_geometry,
 )
 from exudyn_wheelset.geometry.rigid import METHODS, ContactGeometry, contact_geometry
+from exudyn_wheelset.results.files import write_columns
 
 STEP = 1.0e-5
 COMPARED_SHIFTS = 41
@@ -213,12 +214,7 @@ def draw(out: Path, result: Result) -> list[Path]:
         "left_second_gap": geometry.left.second_gap,
         "right_second_gap": geometry.right.second_gap,
     }
-    about = (
-        f"{pair.name}, gauge {pair.track.gauge} m, inclination {pair.track.inclination:.6g}, "
-        f"radius {pair.wheelset.radius} m\nSI units and radians; wheel_y from the tape circle, "
-        "rail_y from the highest point, positive to the field side"
-    )
-    files.append(write_csv(out / f"{stem}.csv", columns, about))
+    files.append(write_columns(out / f"{stem}.csv", columns))
     return files
 
 

@@ -22,7 +22,7 @@ from exudyn.utilities import SensorBody
 
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.front.output import write_csv, write_figure, write_json
+from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import (
     LEFT_COLOUR,
     RIGHT_COLOUR,
@@ -37,7 +37,9 @@ from exudyn_wheelset.front.script import (
     script_parser,
 )
 from exudyn_wheelset.front.settings import changed_settings, load_settings
-from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
+from exudyn_wheelset.front.simulation import Ending, set_duration, simulate
+from exudyn_wheelset.results.files import write_columns
+from exudyn_wheelset.results.growth import measure_growth
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
@@ -387,10 +389,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             settings=changed_settings(settings),
         )
         for motion in motions:
-            write_csv(
+            write_columns(
                 out / f"simple_truck_{motion.speed:.2f}.csv",
                 motion.columns,
-                f"{truck.name}, {motion.speed:g} m/s; SI units, radians",
             )
         draw(out / "simple_truck.png", truck, numbers, motions)
         if arguments.picture:

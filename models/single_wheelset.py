@@ -24,7 +24,7 @@ from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.coupling.create import SENSOR_VALUES, WheelsetItems
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.front.output import write_csv, write_figure, write_json
+from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import draw_wheelset_motion, new_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
@@ -33,8 +33,10 @@ from exudyn_wheelset.front.script import (
     script_parser,
 )
 from exudyn_wheelset.front.settings import changed_settings, load_settings
-from exudyn_wheelset.front.simulation import Ending, measure_growth, set_duration, simulate
+from exudyn_wheelset.front.simulation import Ending, set_duration, simulate
 from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.results.files import write_columns
+from exudyn_wheelset.results.growth import measure_growth
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import linearise
@@ -425,10 +427,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             settings=changed_settings(settings),
         )
         for motion in motions:
-            write_csv(
+            write_columns(
                 out / f"single_wheelset_{motion.speed:.2f}.csv",
                 motion.columns,
-                f"{model.name}, {motion.speed:g} m/s; SI units, radians",
             )
         title = f"{model.name}: {model.wheelset.wheel.name} on {model.track.rail.name}"
         if numbers["critical_speed"] is not None:

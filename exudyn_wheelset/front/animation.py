@@ -21,7 +21,7 @@ from exudyn import graphics
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.output import write_atomically
+from exudyn_wheelset.results.files import write_atomically
 
 RAIL_HEIGHT, WEB_WIDTH, FOOT_WIDTH, FOOT_HEIGHT = 0.172, 0.0165, 0.150, 0.020
 SLEEPER_SPACING, SLEEPER_SIZE = 0.6, (0.26, 2.6, 0.20)

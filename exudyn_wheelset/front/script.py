@@ -13,8 +13,8 @@ from typing import Any
 
 from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.output import _plain
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.results.files import plain
 
 DEFAULT_OUT = Path("runs") / "out"
 
@@ -152,7 +152,7 @@ def run_script(
         print(f"{parser.prog}: interrupted; finished results are kept", file=sys.stderr)
         return 130
     if arguments.json:
-        print(json.dumps(numbers, default=_plain))
+        print(json.dumps(numbers, default=plain))
     elif show is not None:
         show(numbers)
     return 0

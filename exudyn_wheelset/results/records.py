@@ -1,38 +1,38 @@
 """One file for a result: arrays and the record of how they came about, written in one go.
 
 The file is numpy's npz; beside the arrays it holds the entry `record`, JSON text with settings,
-parameters, versions and method. It is written next to its place and moved there when complete, so
-a reader and an interrupted run never see half a file. Nothing in it is pickled.
+parameters, versions and method. Nothing in it is pickled.
 """
 
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from datetime import datetime, timezone
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.results.files import plain, write_atomically
+from exudyn_wheelset.results.versions import versions
+
+Array = np.ndarray
 
 
-def describe(system: DynamicSystem, method: str, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """The record of an analysis: the system's own measures, method, settings, version and time."""
-    measures = system.measures()
-    try:
-        own = version("exudyn-wheelset")
-    except PackageNotFoundError:
-        own = "not installed"
+class Measured(Protocol):
+    """Whatever tells its own settings and parameters."""
+
+    def measures(self) -> dict[str, Any]: ...
+
+
+def describe(system: Measured, method: str, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """The record of an analysis: the system's own measures, method, settings, versions and time."""
     return {
-        **measures,
-        "versions": {**measures.get("versions", {}), "exudyn_wheelset": own},
+        **system.measures(),
+        "versions": versions(),
         "method": method,
         "settings": dict(settings),
         "created": datetime.now(timezone.utc).isoformat(timespec="seconds"),
@@ -44,21 +44,13 @@ def write_record(path: str | Path, arrays: Mapping[str, Array], record: Mapping[
     path = Path(path)
     if path.suffix != ".npz":
         path = path.with_name(path.name + ".npz")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(record, default=_plain)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".part")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            np.savez_compressed(stream, record=np.array(text), **arrays)  # type: ignore[arg-type]
-        # mkstemp makes files for the owner alone; a result is as readable as any other file.
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
-    return path
+    text = np.array(json.dumps(record, default=plain))
+
+    def write(part: Path) -> None:
+        with part.open("wb") as stream:
+            np.savez_compressed(stream, record=text, **arrays)  # type: ignore[arg-type]
+
+    return write_atomically(path, write)
 
 
 def read_record(path: str | Path, kind: str) -> tuple[dict[str, Array], dict[str, Any]]:
@@ -75,11 +67,3 @@ def read_record(path: str | Path, kind: str) -> tuple[dict[str, Array], dict[str
         found = record.get("kind") if isinstance(record, dict) else None
         raise AnalysisError(f"{path}: holds {found!r}, not a {kind!r}")
     return arrays, record
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return str(value)

@@ -306,7 +306,6 @@ class ExudynSystem(DynamicSystem):
 
     def measures(self) -> dict[str, Any]:
         record = super().measures()
-        record["versions"]["exudyn"] = exu.__version__
         return {
             **record,
             "parameters": self.parameters,

@@ -11,19 +11,18 @@ forward speed it is any bifurcation parameter.
 
 from __future__ import annotations
 
-import platform
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import scipy
 from scipy.integrate import solve_ivp
 
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.results.versions import versions
 from exudyn_wheelset.vehicles.description import Vehicle
 
 Array = np.ndarray
@@ -187,11 +186,7 @@ class DynamicSystem(ABC):
             "system": self.name,
             "state_names": list(self.state_names),
             "scales": [float(value) for value in self.scales],
-            "versions": {
-                "python": platform.python_version(),
-                "numpy": np.__version__,
-                "scipy": scipy.__version__,
-            },
+            "versions": versions(),
         }
 
     def norm(self, state: Array) -> float:

@@ -7,7 +7,6 @@ the file alone. Speeds in m/s, periods in s, amplitudes are half of peak to peak
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -16,6 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
 from exudyn_wheelset.stability.hunting.orbit import Orbit
@@ -25,45 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 KIND = "branch of limit cycles"
-
-
-class NamedColumns(np.ndarray):
-    """An array (points, columns) whose columns are also reached by name: table["y [m]"].
-
-    The first words of a name do, its unit left out, if no other name begins so.
-    """
-
-    names: tuple[str, ...]
-
-    def __new__(cls, values: Array, names: Sequence[str]) -> NamedColumns:
-        table = np.array(values, dtype=float).view(cls)
-        table.names = tuple(names)
-        return table
-
-    def __array_finalize__(self, source: Any) -> None:
-        self.names = getattr(source, "names", ())
-
-    def __getitem__(self, key: Any) -> Any:
-        if isinstance(key, str):
-            return np.asarray(self)[:, column_index(self.names, key)]
-        return np.asarray(self)[key]
-
-    def keys(self) -> tuple[str, ...]:
-        return self.names
-
-
-def column_index(names: Sequence[str], name: str) -> int:
-    """Position of a name; its first words do if they tell it from the others ("y", "q1").
-
-    Raises AnalysisError if no name or more than one fits.
-    """
-    if name in names:
-        return list(names).index(name)
-    for ending in (" [", " "):
-        fitting = [index for index, known in enumerate(names) if known.startswith(name + ending)]
-        if len(fitting) == 1:
-            return fitting[0]
-    raise AnalysisError(f"{name!r} is not one of {', '.join(names)}")
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,9 +21,9 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
-from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import (
     Motion,

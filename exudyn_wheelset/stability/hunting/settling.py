@@ -21,8 +21,8 @@ from itertools import pairwise
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending
-from exudyn_wheelset.stability.hunting.branch import column_index
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples

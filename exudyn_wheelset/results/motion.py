@@ -1,0 +1,183 @@
+"""A simulated motion as data: named columns over time, how it ended, and where it came from.
+
+Bodies: displacement from the drawn position x, y, z [m], yaw, roll, pitch [rad] and their rates,
+named as the states of the system ("frame: y [m]"). Wheels: forces of the rail on the wheel and
+values of its contact ("wheelset left: Q [N]"): Y lateral towards +y, Q upwards, both in the track
+frame. Track frame: x forward, y left, z up; SI units, radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.columns import column_index
+from exudyn_wheelset.results.endings import Outcome
+from exudyn_wheelset.results.files import write_columns
+from exudyn_wheelset.results.records import read_record, write_record
+
+Array = np.ndarray
+KIND = "motion"
+_SIDES = ("left", "right")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion:
+    """The result of a simulation.
+
+    time         (m,) [s]
+    columns      (m,) each, by name with its unit; `motion["frame: y"]` finds one by its first words
+    outcome      how it ended; what was computed before is all here
+    speed        [m/s]
+    record       system, parameters, settings, versions
+    coordinates  (m, nq) Exudyn's second-order coordinates, for drawing the model again; (m, 0)
+                 for a system that is not Exudyn's
+    """
+
+    time: Array
+    columns: Mapping[str, Array]
+    outcome: Outcome
+    speed: float
+    record: Mapping[str, Any] = field(default_factory=dict)
+    coordinates: Array = field(default_factory=lambda: np.zeros((0, 0)))
+
+    def __post_init__(self) -> None:
+        wrong = {
+            name: len(values) for name, values in self.columns.items() if len(values) != len(self)
+        }
+        if wrong:
+            raise AnalysisError(
+                f"a motion of {len(self)} samples cannot have columns of other lengths: {wrong}"
+            )
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __getitem__(self, name: str) -> Array:
+        names = list(self.columns)
+        return self.columns[names[column_index(names, name)]]
+
+    def __repr__(self) -> str:
+        end = f"{self.time[-1]:g} s" if len(self) else "nothing"
+        return (
+            f"<Motion of {self.record.get('system', 'a model')} at {self.speed:g} m/s: {end}, "
+            f"{len(self)} samples of {len(self.columns)} columns; {self.outcome.ending.sentence}>"
+        )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the columns, with their units."""
+        return tuple(self.columns)
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Names of the bodies, in the order of the model."""
+        wheels = {f"{wheelset} {side}" for wheelset, side in self.wheels}
+        found = dict.fromkeys(name.split(": ")[0] for name in self.columns if ": " in name)
+        return tuple(name for name in found if name not in wheels)
+
+    @property
+    def wheels(self) -> tuple[tuple[str, str], ...]:
+        """Wheelset and side of every wheel, in the order of the model, left before right."""
+        return tuple(
+            (name.removesuffix(f" {side}: Q [N]"), side)
+            for name in self.columns
+            for side in _SIDES
+            if name.endswith(f" {side}: Q [N]")
+        )
+
+    def body(self, name: str) -> dict[str, Array]:
+        """Columns of one body by their own names: "y [m]", "yaw [rad]", "vy [m/s]", ..."""
+        return self._of(name, self.bodies)
+
+    def wheel(self, wheelset: str, side: str) -> dict[str, Array]:
+        """Columns of one wheel, side "left" or "right": "Q [N]", "Y [N]", "creep_x [-]", ..."""
+        return self._of(f"{wheelset} {side}", tuple(f"{a} {b}" for a, b in self.wheels))
+
+    def _of(self, name: str, known: tuple[str, ...]) -> dict[str, Array]:
+        prefix = f"{name}: "
+        found = {
+            column[len(prefix) :]: values
+            for column, values in self.columns.items()
+            if column.startswith(prefix)
+        }
+        if not found:
+            raise AnalysisError(f"the motion has no {name!r}; it has {', '.join(known)}")
+        return found
+
+    def after(self, time: float) -> Motion:
+        """The part from a time [s] on."""
+        rows = self.time >= time
+        return Motion(
+            self.time[rows],
+            {name: values[rows] for name, values in self.columns.items()},
+            self.outcome,
+            self.speed,
+            self.record,
+            self.coordinates[rows] if len(self.coordinates) else self.coordinates,
+        )
+
+    def write_csv(self, path: str | Path) -> Path:
+        """Write time and columns as CSV, one line of names; whole or not at all."""
+        return write_columns(path, {"t [s]": self.time, **self.columns})
+
+    def save(self, path: str | Path) -> Path:
+        """Write everything to an npz file, whole or not at all; `Motion.load` reads it back."""
+        record = {
+            **self.record,
+            "kind": KIND,
+            "speed": self.speed,
+            "outcome": self.outcome.record(),
+            "names": list(self.columns),
+        }
+        table = np.column_stack([self.time, *self.columns.values()])
+        return write_record(path, {"table": table, "coordinates": self.coordinates}, record)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Motion:
+        """Read a file that `save` has written; raises AnalysisError if it is no such file."""
+        arrays, record = read_record(path, KIND)
+        table = arrays["table"]
+        columns = {name: table[:, 1 + k] for k, name in enumerate(record.pop("names"))}
+        outcome, speed = Outcome.read(record.pop("outcome")), float(record.pop("speed"))
+        record.pop("kind")
+        return cls(table[:, 0], columns, outcome, speed, record, arrays["coordinates"])
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame over "t [s]"; raises AnalysisError where pandas is not installed."""
+        pandas = _library("pandas")
+        return pandas.DataFrame(
+            dict(self.columns), index=pandas.Index(self.time, name="t [s]"), copy=True
+        )
+
+    def to_xarray(self) -> Any:
+        """An xarray Dataset over t, units as attributes; AnalysisError where it is not installed.
+
+        Names lose their units and attributes say how the motion ended.
+        """
+        xarray = _library("xarray")
+        variables = {}
+        for name, values in self.columns.items():
+            short, _, unit = name.partition(" [")
+            variables[short] = ("t", values, {"units": unit.removesuffix("]")})
+        return xarray.Dataset(
+            variables,
+            coords={"t": ("t", self.time, {"units": "s"})},
+            attrs={"speed": self.speed, "ending": str(self.outcome)},
+        )
+
+
+def _library(name: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(name)
+    except ImportError as error:
+        raise AnalysisError(
+            f"{name} is not installed: pip install {name}, or use `columns` and `write_csv`"
+        ) from error
