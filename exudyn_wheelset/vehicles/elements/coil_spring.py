@@ -9,7 +9,7 @@ the bodies, in axes half way between both; its load turns with those axes, as th
 
 potential e^T K e/2 - P . d. What follows under load: plates that stay parallel meet the shear
 stiffness alone; a coil that is free to tip at both ends pushes sideways by P u/h, whatever its
-shear stiffness; a tipped plate pushes sideways by k_s h theta/2 - P theta/2.
+shear stiffness; a plate tipped by theta pushes sideways by (k_s h + P) theta/2.
 """
 
 from __future__ import annotations
