@@ -28,19 +28,19 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from multiprocessing import get_context  # noqa: E402
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import (  # noqa: E402
+    CooperriderBogie,
+    cooperrider_system,
+)
+from exudyn_wheelset.catalogue.cooperrider_reference import (  # noqa: E402
+    cooperrider_reference_system,
+)
+from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame  # noqa: E402
 from exudyn_wheelset.contact.descriptions import Track, Wheelset  # noqa: E402
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent  # noqa: E402
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles  # noqa: E402
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed  # noqa: E402
 from exudyn_wheelset.systems.system import DynamicSystem  # noqa: E402
-from exudyn_wheelset.vehicles.cooperrider_bogie import (  # noqa: E402
-    CooperriderBogie,
-    cooperrider_system,
-)
-from exudyn_wheelset.vehicles.cooperrider_reference import (  # noqa: E402
-    cooperrider_reference_system,
-)
-from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame  # noqa: E402
 
 RESOLUTION = 0.1
 

@@ -28,13 +28,13 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 from concurrent.futures import ProcessPoolExecutor  # noqa: E402
 from multiprocessing import get_context  # noqa: E402
 
+from exudyn_wheelset.catalogue.by_name import entry, vehicle_system  # noqa: E402
 from exudyn_wheelset.stability.hunting.branch import Branch  # noqa: E402
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent  # noqa: E402
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles  # noqa: E402
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed  # noqa: E402
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint  # noqa: E402
 from exudyn_wheelset.systems.system import DynamicSystem  # noqa: E402
-from exudyn_wheelset.vehicles.catalogue import entry, vehicle_system  # noqa: E402
 
 RESOLUTION = 0.1
 FRICTIONS = (0.30, 0.32, 0.34, 0.36)

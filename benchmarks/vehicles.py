@@ -23,7 +23,7 @@ import numpy as np
 from exudyn.utilities import RigidBodyInertia
 
 from exudyn_wheelset import dtu_truck
-from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
+from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
 
 STEP = 5.0e-4
 SPEED = 40.0

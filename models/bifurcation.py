@@ -1,7 +1,7 @@
 """Bifurcation diagram of a vehicle: hunting amplitude over speed, stable and unstable.
 
 Run `python models/bifurcation.py --vehicle s1002`; names are those of
-`exudyn_wheelset.vehicles.catalogue`. From the Hopf point, where the straight run loses stability,
+`exudyn_wheelset.catalogue.by_name`. From the Hopf point, where the straight run loses stability,
 the branch of limit cycles is followed through its folds (continuation). With `--json` it prints
 only its numbers:
 
@@ -33,6 +33,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 
+from exudyn_wheelset.catalogue.by_name import CATALOGUE, entry, vehicle_system
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure, write_json
@@ -54,7 +55,6 @@ from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.system import DynamicSystem
-from exudyn_wheelset.vehicles.catalogue import CATALOGUE, entry, vehicle_system
 
 matplotlib.use("Agg")
 

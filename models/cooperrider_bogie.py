@@ -20,6 +20,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import STATE_NAMES, cooperrider_system
+from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import load_settings
@@ -29,8 +31,6 @@ from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.systems.system import DynamicSystem
-from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES, cooperrider_system
-from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
 LEADING_WHEELSET = STATE_NAMES[0]
 SEARCHED_SPEEDS = (20.0, 120.0)

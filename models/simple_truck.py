@@ -20,6 +20,8 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorBody
 
+from exudyn_wheelset.catalogue.truck import Truck, TruckItems, dtu_truck
+from exudyn_wheelset.catalogue.wheelset_on_frame import WheelsetOnFrame
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure, write_json
@@ -44,8 +46,6 @@ from exudyn_wheelset.stability.linear.critical_speed import linear_critical_spee
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.truck import Truck, TruckItems, dtu_truck
-from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame
 
 DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
 SEARCHED_SPEEDS = (15.0, 150.0)

@@ -20,6 +20,8 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorBody
 
+from exudyn_wheelset.catalogue import paper_wheelset as paper
+from exudyn_wheelset.catalogue.wheelset_on_frame import WheelsetOnFrame
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.coupling.create import SENSOR_VALUES, WheelsetItems
@@ -41,8 +43,6 @@ from exudyn_wheelset.stability.linear.critical_speed import linear_critical_spee
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles import paper_wheelset as paper
-from exudyn_wheelset.vehicles.wheelset_on_frame import WheelsetOnFrame
 
 DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
 SEARCHED_SPEEDS = (10.0, 300.0)

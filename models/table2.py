@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.catalogue import paper_wheelset as paper
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.script import (
@@ -32,7 +33,6 @@ from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.profiles import load_profile
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import root_locus
-from exudyn_wheelset.vehicles import paper_wheelset as paper
 
 PUBLISHED = {
     "mohan": (37.1, 117.2, 221.0),

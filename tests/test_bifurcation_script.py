@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from exudyn_wheelset.catalogue.by_name import CATALOGUE, vehicle, vehicle_system
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import as_system
-from exudyn_wheelset.vehicles.catalogue import CATALOGUE, vehicle, vehicle_system
 
 SCRIPT = Path(__file__).parents[1] / "models" / "bifurcation.py"
 

@@ -15,19 +15,19 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.integrate import solve_ivp
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import (
+    SCALES,
+    CooperriderBogie,
+    cooperrider_system,
+    create_cooperrider_bogie,
+)
+from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import divergence_points, hopf_points
 from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import DynamicSystem
-from exudyn_wheelset.vehicles.cooperrider_bogie import (
-    SCALES,
-    CooperriderBogie,
-    cooperrider_system,
-    create_cooperrider_bogie,
-)
-from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
 EXUDYN = cooperrider_system()
 REFERENCE = cooperrider_reference_system()

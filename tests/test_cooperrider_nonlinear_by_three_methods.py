@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import STATE_NAMES
+from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
-from exudyn_wheelset.vehicles.cooperrider_bogie import STATE_NAMES
-from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
 SCRIPT = Path(__file__).parents[1] / "models" / "cooperrider_bogie.py"
 

@@ -23,6 +23,7 @@ from exudyn_wheelset import (
     linearise,
     register_creep_law,
 )
+from exudyn_wheelset.catalogue.by_name import s1002_wheelset
 from exudyn_wheelset.contact.descriptions import Contact
 from exudyn_wheelset.creep import CREEP_LAWS, creep_law, creep_parameters, law_of_kernel
 from exudyn_wheelset.creep.saturation import (
@@ -32,7 +33,6 @@ from exudyn_wheelset.creep.saturation import (
     linear_force,
 )
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.vehicles.catalogue import s1002_wheelset
 
 BUILT_IN = "shen-hedrick-elkins"
 

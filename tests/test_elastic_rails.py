@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import ExudynSystem, WheelsetError, linear_critical_speed
+from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity, side_forces
-from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
 
 
 def build(elasticity):

@@ -28,11 +28,11 @@ from exudyn_wheelset import (
     linear_critical_speed,
     linearise,
 )
+from exudyn_wheelset.catalogue.by_name import vehicle_system
 from exudyn_wheelset.creep import CREEP_LAWS
 from exudyn_wheelset.stability.linear.law_checks import (
     ADDITIVITY_LIMIT,
 )
-from exudyn_wheelset.vehicles.catalogue import vehicle_system
 
 RATIOS = (0.85, 0.95, 1.0, 1.05, 1.15)
 # Exudyn's rotation vectors lose their digits below some 1e-6 rad; above 0.1 mm the curvature of

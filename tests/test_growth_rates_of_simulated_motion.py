@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import linear_critical_speed, linearise
-from exudyn_wheelset.vehicles.paper_wheelset import paper_lateral_wheelset, paper_wheelset
+from exudyn_wheelset.catalogue.paper_wheelset import paper_lateral_wheelset, paper_wheelset
 
 RATIOS = (0.85, 0.95, 1.0, 1.05, 1.15)
 START = 5.0e-5

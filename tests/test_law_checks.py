@@ -14,6 +14,7 @@ from exudyn_wheelset import (
     linearise,
     register_creep_law,
 )
+from exudyn_wheelset.catalogue.by_name import vehicle_system
 from exudyn_wheelset.creep import CREEP_LAWS, creep_law, kalker_coefficients
 from exudyn_wheelset.creep.slopes import CreepPatch, creep_slopes
 from exudyn_wheelset.stability.linear import law_checks
@@ -24,7 +25,6 @@ from exudyn_wheelset.stability.linear.law_checks import (
     check_law,
     warn_of_law,
 )
-from exudyn_wheelset.vehicles.catalogue import vehicle_system
 
 TURN = np.array([[0.0, 1.0], [-1.0, 0.0]])
 

@@ -1,7 +1,7 @@
 """Limit cycles of Cooperrider's bogie: continuation, descent and plain simulation agree.
 
 The bogie is Kaas-Petersen's (Acta Mechanica 61 (1986) 89), written out in
-`vehicles/cooperrider_reference.py`. The three methods share nothing but the right-hand side.
+`catalogue/cooperrider_reference.py`. The three methods share nothing but the right-hand side.
 """
 
 from dataclasses import replace
@@ -9,6 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import cooperrider_system
+from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
@@ -17,8 +19,6 @@ from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode
 from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.vehicles.cooperrider_bogie import cooperrider_system
-from exudyn_wheelset.vehicles.cooperrider_reference import cooperrider_reference_system
 
 SYSTEM = cooperrider_reference_system()
 

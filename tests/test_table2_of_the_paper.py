@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import brentq
 
 from exudyn_wheelset import creep_force, linear_critical_speed
-from exudyn_wheelset.vehicles.paper_wheelset import (
+from exudyn_wheelset.catalogue.paper_wheelset import (
     paper_lateral_wheelset,
     paper_parameters,
     paper_wheelset,

@@ -12,6 +12,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
+from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.creep import kalker_coefficients
@@ -19,8 +21,6 @@ from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import linearise
-from exudyn_wheelset.vehicles.truck import Truck, dtu_truck
-from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
 
 PUBLISHED_SPEED, PUBLISHED_FREQUENCY = 68.64, 4.00
 CONTACT_HALF_DISTANCE = 0.7163

@@ -171,7 +171,7 @@ def test_dampers_take_their_power_from_the_motion(name):
 
 @pytest.mark.parametrize("name", ["spring", "bushing", "coil", "maxwell", "bump stop", "rod"])
 def test_axes_turn_with_the_bodies(name):
-    """A vehicle that turns as a whole about the vertical, as in a curve, feels the turned forces."""
+    """A vehicle turned as a whole about the vertical, as in a curve, feels the turned forces."""
     joined = Joined(ELEMENTS[name], preload=np.array([0.0, 0.0, 60e3, 0.0, 0.0, 0.0]))
     q = pose(8, angle=0.01)
     turn = Rotation.from_rotvec([0.0, 0.0, 0.4])
@@ -291,7 +291,7 @@ def coil_stiffness(joined, coil_height, entries):
 
 
 def test_a_coil_under_load_is_a_preloaded_strut():
-    """Shear stiffness k, bending b, height h, load P; upper end moved by u, plates tipped by t1, t0.
+    """Shear stiffness k, bending b, height h, load P; upper end moved by u, plates tipped t1, t0.
 
     Potential by hand, to second order: the shear d = u - h t, t = (t1 + t0)/2, the tipped axis and
     the load's way along it h (t1^2 + t0^2)/4 + t (u - h t), so

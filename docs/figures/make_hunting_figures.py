@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.catalogue.by_name import entry, vehicle, vehicle_system
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.stability.hunting.branch import Branch
@@ -23,7 +24,6 @@ from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_desc
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.catalogue import entry, vehicle, vehicle_system
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
@@ -31,7 +31,7 @@ sys.path.insert(0, str(REPOSITORY / "models"))
 import bifurcation  # noqa: E402
 
 LAWS = ("polach", "shen-hedrick-elkins", "fastsim")
-# Flange impacts are taken up in one blow, as on a track with ballast (vehicles/catalogue.py).
+# Flange impacts are taken up in one blow, as on a track with ballast (catalogue/by_name.py).
 DAMPING = 10.0
 # Ends of the branches of sets 1 to 3, in Hopf speeds.
 SPANS = {1: (0.8, 1.15), 2: (0.7, 1.15), 3: (0.45, 1.1)}

@@ -22,11 +22,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from exudyn_wheelset import contact_geometry, creep_force, linear_critical_speed
+from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.paper_wheelset import paper_lateral_wheelset
 from exudyn_wheelset.creep import kalker_coefficients
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.profiles import shapes
-from exudyn_wheelset.vehicles.lateral_wheelset import LateralWheelset, paper_parameters
-from exudyn_wheelset.vehicles.paper_wheelset import paper_lateral_wheelset
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "models"))

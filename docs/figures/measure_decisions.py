@@ -30,8 +30,8 @@ from exudyn_wheelset import (
     create_wheelset,
     linearise,
 )
+from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
 from exudyn_wheelset.contact.layout import SIDE, Axle
-from exudyn_wheelset.vehicles.paper_wheelset import paper_wheelset
 
 REFERENCE = Path(__file__).parents[2] / "tests" / "reference" / "contact_forces_manchester_A22.csv"
 WHEELSET = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")

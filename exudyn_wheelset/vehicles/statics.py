@@ -73,11 +73,9 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
         ),
         residual=float(np.abs(accelerations(vehicle, rest)).max()),
         preloads=frozen({name: tuple(map(float, value)) for name, value in preloads.items()}),
-        positions=frozen(
-            {part.name: tuple(map(float, p)) for part, p in zip(parts, places, strict=True)}
-        ),
+        positions=frozen({part.name: _three(p) for part, p in zip(parts, places, strict=True)}),
         rotations=frozen(
-            {part.name: tuple(map(float, p[3:])) for part, p in zip(parts, rest.pose, strict=True)}
+            {part.name: _three(p[3:]) for part, p in zip(parts, rest.pose, strict=True)}
         ),
         radii=frozen(
             {
@@ -100,7 +98,12 @@ def with_free_lengths(vehicle: Vehicle) -> Vehicle:
             offset = np.linalg.lstsq(strut.stiffness[:3, :3], preload[:3], rcond=1e-12)[0]
             offsets[strut.connection.name] = offset
     connections = tuple(
-        replace(one, offset=tuple(map(float, offsets.get(one.name, np.zeros(3)))))
+        replace(one, offset=_three(offsets.get(one.name, np.zeros(3))))
         for one in vehicle.connections
     )
     return replace(vehicle, connections=connections, preload="free")
+
+
+def _three(values: Array) -> tuple[float, float, float]:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.vehicles.lateral_wheelset import LateralWheelset, paper_parameters
-from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
 
 # What the paper leaves out, the same in every cell of Table 2; docs/table2.md gives the reasons.
 WHEEL = "AAR_1_20"

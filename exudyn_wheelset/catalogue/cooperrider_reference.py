@@ -12,9 +12,9 @@ from dataclasses import asdict
 
 import numpy as np
 
+from exudyn_wheelset.catalogue.cooperrider_bogie import SCALES, STATE_NAMES, CooperriderBogie
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.systems.system import FunctionSystem
-from exudyn_wheelset.vehicles.cooperrider_bogie import SCALES, STATE_NAMES, CooperriderBogie
 
 Array = np.ndarray
 

@@ -15,15 +15,15 @@ from typing import Any
 
 import exudyn as exu
 
+from exudyn_wheelset.catalogue import paper_wheelset as paper
+from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie, cooperrider_system
+from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
+from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
 from exudyn_wheelset.systems.system import DynamicSystem
-from exudyn_wheelset.vehicles import paper_wheelset as paper
-from exudyn_wheelset.vehicles.cooperrider_bogie import CooperriderBogie, cooperrider_system
-from exudyn_wheelset.vehicles.lateral_wheelset import LateralWheelset, paper_parameters
-from exudyn_wheelset.vehicles.truck import Truck, dtu_truck
-from exudyn_wheelset.vehicles.wheelset_on_frame import Suspension, WheelsetOnFrame
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.catalogue import lateral_kernel as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
@@ -28,7 +29,6 @@ from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_ce
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
 from exudyn_wheelset.systems.system import DynamicSystem
-from exudyn_wheelset.vehicles import lateral_kernel as kernel
 
 CODES = ("mohan", "idealized", "profiled")
 

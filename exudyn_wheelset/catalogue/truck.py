@@ -34,6 +34,7 @@ from exudyn.utilities import (
 )
 from scipy.optimize import brentq
 
+from exudyn_wheelset.catalogue.wheelset_on_frame import GRAVITY, Suspension
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.coupling.create import create_wheelset
@@ -43,7 +44,6 @@ from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP, create_spin_drive
-from exudyn_wheelset.vehicles.wheelset_on_frame import GRAVITY, Suspension
 
 
 @dataclass(frozen=True)
