@@ -232,7 +232,7 @@ class Track:
             shift = self.origin_half_distance
         else:
             level = height - self.gauge_depth
-            shift = 0.5 * self.gauge - _gauge_point(turned, table.ds, level, rail.name)
+            shift = 0.5 * self.gauge - _gauge_point(turned, table.ds, level, rail)
         turned[:, 0] += shift
         turned[:, 4] -= height
         return RailPlacement(turned, table.ds, datum + shift)
@@ -253,14 +253,22 @@ def _highest_point(coefficients: np.ndarray, spacing: float) -> tuple[float, flo
     return best
 
 
-def _gauge_point(coefficients: np.ndarray, spacing: float, level: float, name: str) -> float:
-    """Lateral position of the gauge-side point at height `level`, nearest to the top."""
+def _gauge_point(coefficients: np.ndarray, spacing: float, level: float, rail: Profile) -> float:
+    """Lateral position of the gauge-side point at height `level`, nearest to the top.
+
+    The gauge is the least distance between the rails from their tops down to that height (EN
+    13848-1): on a face that undercuts above it, the last point before it does.
+    """
     top = int(np.argmax(coefficients[:, 4]))
     below = np.flatnonzero(coefficients[:top, 4] <= level)
+    if below.size == 0 and rail.ends_at_gauge_face:
+        return float(coefficients[0, 0])
     if below.size == 0:
+        reached = coefficients[top, 4] - coefficients[0, 4]
         raise WheelsetError(
-            f"rail {name!r} does not reach the depth below its top at which the gauge is measured, "
-            "on the gauge side: give a smaller gauge_depth, or datum_half_distance"
+            f"rail {rail.name!r} reaches {1e3 * reached:.2f} mm below its top on the gauge side, "
+            "less than the depth at which the gauge is measured: give gauge_depth="
+            f"{max(np.floor(1e4 * reached - 1.0), 1.0) / 1e4:g} or less, or datum_half_distance"
         )
     segment = coefficients[below[-1]]
     height = np.polynomial.Polynomial(segment[4:]) - level

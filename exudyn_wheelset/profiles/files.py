@@ -16,20 +16,26 @@ a file is found from its content and its suffix:
 from __future__ import annotations
 
 import importlib.resources
+import logging
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
+
+import numpy as np
 
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.profiles.finish import Options, check_options, finish
 from exudyn_wheelset.profiles.formats import gensys, miniprof, simpack, two_column, vampire
 from exudyn_wheelset.profiles.formats.raw import RawProfile, decode, fault, split_lines
+from exudyn_wheelset.profiles.noise import warn_of_noise
 from exudyn_wheelset.profiles.profile import Profile
 
 BUNDLED = ("S1002", "UIC60", "AAR_1_20", "cone_1_20", "knife_edge")
 FORMATS = ("two-column", "simpack", "miniprof", "vampire", "gensys")
 _SIDES = ("left", "right")
+_LOG = logging.getLogger("exudyn_wheelset.profiles")
 
 
 def load_profile(
@@ -37,21 +43,26 @@ def load_profile(
     *,
     kind: str | None = None,
     unit: str | None = None,
-    smoothing: float = 0.0,
+    smoothing: float | str = 0.0,
     side: str = "left",
     format: str | None = None,
     outlier_tolerance: float | None = None,
     shift_y: float = 0.0,
     shift_z: float = 0.0,
+    mirror_y: bool = False,
 ) -> Profile:
     """A wheel or rail profile by its name or from a file; a Profile passes through.
 
     kind: "wheel" or "rail" where the file does not say; unit: "mm", "m", "cm" or "inch", which
-    goes before the file's own; smoothing: rms distance of the points to the curve [m], 0 to 1e-3;
-    side: "left" or "right" where a file holds both; format: one of FORMATS instead of finding it;
-    outlier_tolerance: points farther than this [m] from the curve through their neighbours are
-    left out and reported; shift_y, shift_z: added to the points [m] in the package's frame.
-    What was turned, cut off, shifted or guessed stands in the profile's `remarks`.
+    goes before the file's own; smoothing: rms distance of the points to the curve [m], 0 to 1e-3,
+    or "auto": as much as the noise of the points calls for (penalised.py); side: "left" or "right"
+    where a file holds both; format: one of FORMATS instead of finding it; outlier_tolerance: points
+    farther than this [m] from the curve through their neighbours are left out and reported;
+    mirror_y: the file has its sides the other way round; shift_y, shift_z: added to the points [m]
+    in the package's frame, after that.
+    What was turned, cut off, shifted or guessed stands in the profile's `remarks` and goes to the
+    log "exudyn_wheelset.profiles" (level INFO). WheelsetWarning: noise makes the curvature of an
+    unsmoothed curve worthless.
 
     Raises ProfileError, which names the file, the line and the mend.
     """
@@ -69,6 +80,8 @@ def load_profile(
     if profile is not None:
         if kind not in (None, profile.kind):
             raise ProfileError(f"{profile.name} is a {profile.kind}, but kind={kind!r} was asked")
+        if mirror_y:
+            profile = replace(profile, y=-profile.y[::-1], z=profile.z[::-1].copy())
         if shift_y or shift_z:
             profile = profile.shifted(shift_y, shift_z)
         return profile.smoothed(smoothing) if smoothing else profile
@@ -83,10 +96,15 @@ def load_profile(
     except (OSError, ValueError) as error:
         raise ProfileError(f"{label}: cannot be read ({error})") from None
     text, remarks = decode(data, label)
-    options = Options(kind, unit, smoothing, outlier_tolerance, (shift_y, shift_z))
+    options = Options(kind, unit, smoothing, outlier_tolerance, (shift_y, shift_z), mirror_y)
     raw = _read(split_lines(text), label, path.suffix.lower(), format, kind, side)
     raw.remarks[:0] = remarks
-    return finish(raw, label, path.stem, options)
+    profile = finish(raw, label, path.stem, options)
+    for remark in profile.remarks:
+        _LOG.info("%s: %s", label, remark)
+    points = np.column_stack((profile.y, profile.z))
+    warn_of_noise(label, points, profile.noise, float(profile.smoothing))
+    return profile
 
 
 def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | None = None) -> Path:
@@ -155,7 +173,7 @@ def _read(
         return miniprof.read(lines, label, kind)
     if format == "gensys":
         return gensys.read(lines, label)
-    return two_column.read(lines, label)
+    return two_column.read(lines, label, side)
 
 
 def _format_of(lines: list[str], suffix: str) -> str:

@@ -3,9 +3,9 @@
 What every format has in common. Faults that a reader of the file must mend are errors with the
 line; what can be decided is decided, and said in the profile's remarks.
 
-Order of the steps: unit to metres; outliers, if a tolerance is given; points in the direction of
-growing y; overhanging ends cut off; kind and orientation from the shape; the caller's
-shift; datum.
+Order of the steps: lost ends; unit to metres; outliers, if a tolerance is given; points in the
+order of the curve, overhanging ends cut off, what runs back left out (see mending.py); kind and
+orientation from the shape; the caller's mirror and shift; datum.
 """
 
 from __future__ import annotations
@@ -18,17 +18,37 @@ from numpy.typing import NDArray
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles.curve import chord_length
 from exudyn_wheelset.profiles.formats.raw import UNITS, RawProfile, fault, listed, unit_word
+from exudyn_wheelset.profiles.mending import (
+    CLOSEST,
+    Stretch,
+    advancing_stretch,
+    averaged,
+    in_order,
+    longest_advance,
+    without_lost_ends,
+)
 from exudyn_wheelset.profiles.orientation import look_at
-from exudyn_wheelset.profiles.profile import KINDS, Profile, distance_to_neighbours, size_hint
+from exudyn_wheelset.profiles.profile import (
+    KINDS,
+    RAIL_TOP_RANGE,
+    Profile,
+    distance_to_neighbours,
+    size_hint,
+)
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-_CLOSEST = 1e-9
 _GREATEST_SPAN = 0.3
 _MOST_POINTS = 50_000
 _DATUM_SHIFT = 5e-3
 _STEEP = 3.0
+_GAUGE_DEPTH = 0.014
+_TAPE_FROM_FLANGE_BACK = 0.070
+_MOST_BACKSTEPS = 0.1
+_MOST_LEFT_OUT = 0.4
+_WIDE_GAP = 3e-3
+_UNDERCUT = 2e-5
 
 
 @dataclass(frozen=True)
@@ -37,9 +57,10 @@ class Options:
 
     kind: str | None = None
     unit: str | None = None
-    smoothing: float = 0.0
+    smoothing: float | str = 0.0
     outlier_tolerance: float | None = None
     shift: tuple[float, float] = (0.0, 0.0)
+    mirror_y: bool = False
 
 
 def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
@@ -61,20 +82,13 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
     remarks = list(raw.remarks)
     lines = np.array(raw.lines)
     points = np.column_stack((raw.y, raw.z)).astype(np.float64)
-    points *= _unit_factor(raw, points, label, options.unit, remarks)
-
-    _check_doubled(points, lines, label, options.outlier_tolerance)
+    keep = without_lost_ends(points, lines, remarks)
+    points, lines = points[keep], lines[keep]
+    points *= _unit_factor(raw, points, lines, label, options.unit, remarks)
     if options.outlier_tolerance is not None:
         keep = _without_outliers(points, options.outlier_tolerance, lines, label, remarks)
         points, lines = points[keep], lines[keep]
-    if np.sum(np.diff(points[:, 0]) < 0.0) > 0.5 * len(points):
-        points, lines = points[::-1], lines[::-1]
-    keep_part = _advancing(points, lines, label, remarks)
-    points, lines = points[keep_part], lines[keep_part]
-    if len(points) < 8:
-        raise fault(
-            label, int(lines[0]), f"{len(points)} points left in one direction of y; 8 are needed"
-        )
+    points, lines, low_face, high_face = _in_one_direction(points, lines, label, remarks)
     y, z = points[:, 0], points[:, 1]
 
     place = raw.kind_line if raw.kind else int(lines[0])
@@ -96,8 +110,21 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
             f"given as a {kind}, but the shape is that of a {look.kind}; say kind={look.kind!r}",
         )
     if not raw.trusted:
-        y, z = _oriented(y, z, kind, raw, remarks)
+        y, z, turned = _oriented(y, z, kind, raw, remarks)
+        low_face, high_face = (high_face, low_face) if turned else (low_face, high_face)
+    if options.mirror_y:
+        y, z = -y[::-1], z[::-1]
+        low_face, high_face = high_face, low_face
+        remarks.append("y turned to the other side as asked for")
     y, z = _shifted(y, z, kind, raw, options.shift, remarks)
+    if kind == "wheel" and not y[0] < 0.0 < y[-1]:
+        raise fault(
+            label,
+            place,
+            f"y reaches from {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm and leaves out the tape "
+            f"circle y = 0; give shift_y={-y[0] - _TAPE_FROM_FLANGE_BACK:.6g} to put y = 0 "
+            f"{1e3 * _TAPE_FROM_FLANGE_BACK:g} mm from the first point of the flange",
+        )
     try:
         profile = Profile(
             raw.name or stem,
@@ -107,6 +134,7 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
             source=raw.source or f"{raw.format} file",
             smoothing=options.smoothing,
             remarks=remarks,
+            ends_at_gauge_face=kind == "rail" and low_face,
         )
         # Asked for here, so that points which allow no such curve are refused with their file.
         profile.span  # noqa: B018
@@ -116,8 +144,94 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
         raise fault(label, place, message) from None
 
 
+def _in_one_direction(
+    points: FloatArray, lines: IntArray, label: str, remarks: list[str]
+) -> tuple[FloatArray, IntArray, bool, bool]:
+    """Points with growing y, their lines, and whether the curve is upright at either end."""
+    order = in_order(points, lines, remarks)
+    points, lines = points[order], lines[order]
+    if len(points) < 8:
+        raise fault(label, None, f"{len(points)} different points; a profile needs at least 8")
+    stretch = advancing_stretch(points)
+    _say_what_is_cut(points, lines, stretch, remarks)
+    points = points[stretch.first : stretch.last + 1]
+    lines = lines[stretch.first : stretch.last + 1]
+    for group in (1, 2, 4, 8, 16):
+        thinned, their_lines = averaged(points, lines, group)
+        steps = np.diff(thinned, axis=0)
+        gentle = np.abs(steps[:, 1]) < _STEEP * np.abs(steps[:, 0])
+        if np.sum(gentle & (steps[:, 0] <= 0.0)) <= _MOST_BACKSTEPS * len(thinned):
+            break
+    if group > 1:
+        remarks.append(
+            f"means of {group} neighbouring points taken, because their noise runs back along y"
+        )
+    points, lines = thinned, their_lines
+    row = longest_advance(points[:, 0])
+    gone = np.setdiff1d(np.arange(len(points)), row)
+    if len(points) < 8:
+        raise fault(
+            label,
+            int(lines[0]),
+            f"{len(points)} points left between overhanging ends; 8 are needed: give a longer "
+            "part of the profile",
+        )
+    if len(row) < 8 or len(gone) > _MOST_LEFT_OUT * len(points):
+        i = int(gone[0])
+        raise fault(
+            label,
+            int(lines[i]),
+            f"y = {1e3 * points[i, 0]:g} mm runs back, as at {len(gone)} of {len(points)} points; "
+            "sort the points along the profile",
+        )
+    if len(gone):
+        back = np.max(np.maximum.accumulate(points[:, 0]) - points[:, 0])
+        words = [str(line) for line in lines[gone]]
+        remarks.append(
+            f"{len(gone)} points left out that run back by up to {1e3 * back:.3g} mm in y, "
+            f"lines {listed(words)}"
+        )
+    gaps = np.hypot(*np.diff(points[row], axis=0).T)
+    widest = int(np.argmax(gaps))
+    if gaps[widest] > max(_WIDE_GAP, 10.0 * float(np.median(gaps))):
+        low, high = 1e3 * points[row[widest]], 1e3 * points[row[widest + 1]]
+        remarks.append(
+            f"no points for {1e3 * gaps[widest]:.1f} mm between y = {low[0]:.2f} and "
+            f"{high[0]:.2f} mm of the file; the curve bridges them"
+        )
+    return points[row], lines[row], stretch.low_face, stretch.high_face
+
+
+def _say_what_is_cut(
+    points: FloatArray, lines: IntArray, stretch: Stretch, remarks: list[str]
+) -> None:
+    first, last = stretch.first, stretch.last
+    cut = first + len(points) - 1 - last
+    if not cut:
+        return
+    parts = []
+    for end, edge, sign in (
+        (slice(0, first), first, 1.0),
+        (slice(last + 1, len(points)), last, -1.0),
+    ):
+        if end.start == end.stop:
+            continue
+        behind = float(np.max(sign * (points[end, 0] - points[edge, 0])))
+        their = lines[end]
+        parts.append(
+            f"lines {min(their)} to {max(their)}"
+            + (f", which recede by {1e3 * behind:.2g} mm" if behind > _UNDERCUT else "")
+        )
+    remarks.append(f"{cut} points of overhanging ends cut off: {'; '.join(parts)}")
+
+
 def _unit_factor(
-    raw: RawProfile, points: FloatArray, label: str, asked: str | None, remarks: list[str]
+    raw: RawProfile,
+    points: FloatArray,
+    lines: IntArray,
+    label: str,
+    asked: str | None,
+    remarks: list[str],
 ) -> float:
     """Metres per number of the file; the unit is named, or told by the width of the profile."""
     unit = raw.unit
@@ -127,7 +241,7 @@ def _unit_factor(
             raise ProfileError(f"{label}: unit={asked!r}; use 'mm', 'm', 'cm' or 'inch'")
         if raw.unit not in (None, unit):
             remarks.append(f"read in {unit} as asked for, although the file says {raw.unit}")
-    _check_lost_points(raw, points, label, unit)
+    _check_lost_points(points, lines, label)
     width = float(np.max(np.ptp(points, axis=0)))
     if unit is None:
         if 15.0 <= width <= 1e3 * _GREATEST_SPAN:
@@ -137,7 +251,7 @@ def _unit_factor(
         else:
             raise fault(
                 label,
-                raw.lines[0],
+                int(lines[0]),
                 f"the numbers are {width:g} wide, which fits neither mm nor m; "
                 "add '# unit: mm' (m, cm, inch) on top, or give unit=",
             )
@@ -146,39 +260,31 @@ def _unit_factor(
     if not 2e-3 <= width * factor <= _GREATEST_SPAN:
         raise fault(
             label,
-            raw.unit_line or raw.lines[0],
+            raw.unit_line or int(lines[0]),
             f"in {unit} the profile is {width * factor:g} m wide; one is 2 to 300 mm wide. "
             + size_hint(width * factor),
         )
     return factor
 
 
-def _check_lost_points(raw: RawProfile, points: FloatArray, label: str, unit: str | None) -> None:
-    """Name the line of a point that lies far from all others, before the unit is blamed."""
+def _check_lost_points(points: FloatArray, lines: IntArray, label: str) -> None:
+    """Name the lines of points that lie far from all others, before the unit is blamed."""
     centre = np.median(points, axis=0)
     distance = np.max(np.abs(points - centre), axis=1)
     typical = float(np.quantile(distance, 0.9))
-    worst = int(np.argmax(distance))
-    if distance[worst] > 20.0 * max(typical, 1e-12) and typical > 0.0:
-        y, z = points[worst]
-        raise fault(
-            label,
-            raw.lines[worst],
-            f"the point y = {y:g}, z = {z:g} lies far from all others; mend or delete the line",
+    far = np.flatnonzero(distance > 20.0 * max(typical, 1e-12))
+    if len(far) and typical > 0.0:
+        y, z = points[far[0]]
+        more = (
+            f" (so do lines {listed([str(lines[i]) for i in far[1:]], 100)})"
+            if far[1:].size
+            else ""
         )
-
-
-def _check_doubled(
-    points: FloatArray, lines: IntArray, label: str, tolerance: float | None
-) -> None:
-    same = np.flatnonzero(np.max(np.abs(np.diff(points, axis=0)), axis=1) < _CLOSEST)
-    if len(same) and tolerance is None:
-        i = int(same[0])
         raise fault(
             label,
-            int(lines[i + 1]),
-            f"repeats the point of line {lines[i]}; delete one of the two"
-            + (f" ({len(same)} such lines)" if len(same) > 1 else ""),
+            int(lines[far[0]]),
+            f"the point y = {y:g}, z = {z:g} lies far from all others{more}; "
+            "mend or delete the line",
         )
 
 
@@ -190,7 +296,7 @@ def _without_outliers(
         raise ProfileError(f"{label}: outlier_tolerance = {tolerance:g} m; use a positive distance")
     keep = np.arange(len(points))
     t = chord_length(points)
-    keep = keep[np.concatenate(([True], np.diff(t) > _CLOSEST))]
+    keep = keep[np.concatenate(([True], np.diff(t) > CLOSEST))]
     doubled = len(points) - len(keep)
     if doubled:
         remarks.append(f"{doubled} doubled points left out")
@@ -211,7 +317,8 @@ def _without_outliers(
             label,
             min(dropped),
             f"more than a fifth of the points lie farther than {tolerance:g} m from their "
-            "neighbours; raise outlier_tolerance",
+            f"neighbours; raise outlier_tolerance to {_usual_distance(points):.2g} or more, or "
+            "leave it out and give smoothing='auto'",
         )
     if dropped:
         words = [str(line) for line in sorted(dropped)]
@@ -222,39 +329,15 @@ def _without_outliers(
     return keep
 
 
-def _advancing(points: FloatArray, lines: IntArray, label: str, remarks: list[str]) -> slice:
-    """The longest stretch of growing y; what lies before and after must be a steep end.
-
-    A steep end (flange back, web of the rail) overhangs and is cut off; anything else is a
-    fault in the order of the points.
-    """
-    steps = np.diff(points[:, 0])
-    breaks = np.flatnonzero(steps <= _CLOSEST)
-    if not len(breaks):
-        return slice(0, len(points))
-    starts = np.concatenate(([0], breaks + 1))
-    ends = np.concatenate((breaks, [len(points) - 1]))
-    longest = int(np.argmax(points[ends, 0] - points[starts, 0]))
-    first, last = int(starts[longest]), int(ends[longest])
-    for end, i in ((points[: first + 1], first), (points[last:], last + 1)):
-        travel = np.sum(np.abs(np.diff(end, axis=0)), axis=0)
-        if len(end) > 1 and not travel[1] > _STEEP * travel[0]:
-            previous = max(i - 1, 0)
-            fault_word = "repeats" if points[i, 0] == points[previous, 0] else "runs back from"
-            raise fault(
-                label,
-                int(lines[i]),
-                f"y {fault_word} that of line {lines[previous]}; sort the points along the "
-                "profile and delete double ones, or give outlier_tolerance=",
-            )
-    cut = len(points) - (last + 1 - first)
-    remarks.append(f"{cut} points of overhanging ends cut off")
-    return slice(first, last + 1)
+def _usual_distance(points: FloatArray) -> float:
+    """A tolerance [m] that few points exceed."""
+    return 2.0 * float(np.quantile(distance_to_neighbours(points), 0.98)) + 1e-9
 
 
 def _oriented(
     y: FloatArray, z: FloatArray, kind: str, raw: RawProfile, remarks: list[str]
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray, bool]:
+    """Points with z up and the sides in place, and whether y was turned."""
     look = look_at(y, z)
     y_sign, z_sign = (look.y_sign, look.z_sign) if look is not None else (1, 1)
     if look is None and kind == "rail" and np.median(z) < 0.5 * (z[0] + z[-1]):
@@ -265,9 +348,19 @@ def _oriented(
     if y_sign < 0:
         y, z = -y[::-1], z[::-1]
         remarks.append("y turned, because the flange lay at y > 0")
-    if kind == "rail" and raw.format == "two-column text":
-        remarks.append("y taken towards the field side, which the shape of a rail cannot show")
-    return y, z
+    if kind == "rail" and raw.gauge_by_depth:
+        top = float(np.max(z))
+        gauge, field = top - z[0], top - z[-1]
+        if gauge < _GAUGE_DEPTH <= field:
+            y, z = -y[::-1], z[::-1]
+            remarks.append(
+                f"y turned: only the side at y > 0 reaches down {1e3 * _GAUGE_DEPTH:g} mm, where "
+                "the gauge is measured (mirror_y=True turns it back)"
+            )
+            return y, z, y_sign > 0
+        if raw.format == "two-column text" and not field < _GAUGE_DEPTH <= gauge:
+            remarks.append("y taken towards the field side, which the shape of a rail cannot show")
+    return y, z, y_sign < 0
 
 
 def _shifted(
@@ -291,14 +384,33 @@ def _shifted(
         return y, z
     if kind == "wheel" and y[0] <= 0.0 <= y[-1]:
         offset = float(np.interp(0.0, y, z))
-        if 1e-6 < abs(offset) <= _DATUM_SHIFT:
+        if abs(offset) > 1e-6:
             z = z - offset
             remarks.append(f"z lowered by {1e3 * offset:.4f} mm to be 0 at the tape circle")
-    elif kind == "rail" and abs(np.max(z)) > _DATUM_SHIFT:
-        top = float(np.max(z))
-        z = z - top
-        remarks.append(f"z lowered by {1e3 * top:.4f} mm to be 0 at the top")
+    elif kind == "rail":
+        if abs(np.max(z)) > _DATUM_SHIFT:
+            top = float(np.max(z))
+            z = z - top
+            remarks.append(f"z lowered by {1e3 * top:.4f} mm to be 0 at the top")
+        y = _centred(y, z, remarks)
     return y, z
+
+
+def _centred(y: FloatArray, z: FloatArray, remarks: list[str]) -> FloatArray:
+    """y of a rail from the middle of its head, where the file's origin lies elsewhere."""
+    crest = int(np.argmax(z))
+    if abs(y[crest]) <= RAIL_TOP_RANGE:
+        return y
+    deepest = min(0.014, float(z[crest] - max(z[0], z[-1])))
+    left, right = _at_depth(y, z - z[crest], deepest)
+    middle = 0.5 * (left + right)
+    if abs(y[crest] - middle) > RAIL_TOP_RANGE:
+        middle = float(y[crest])
+    remarks.append(
+        f"y = 0 put midway between the flanks {1e3 * deepest:.1f} mm below the top: the file's "
+        f"origin lay {1e3 * abs(middle):.2f} mm beside it"
+    )
+    return y - middle
 
 
 def _at_depth(y: FloatArray, z: FloatArray, depth: float) -> tuple[float, float]:
@@ -313,9 +425,13 @@ def _at_depth(y: FloatArray, z: FloatArray, depth: float) -> tuple[float, float]
     return left, right
 
 
-def check_options(kind: str | None, smoothing: float) -> None:
+def check_options(kind: str | None, smoothing: float | str) -> None:
     """Raise ProfileError for an impossible kind or smoothing."""
     if kind is not None and kind not in KINDS:
         raise ProfileError(f"kind={kind!r}; use 'wheel' or 'rail'")
+    if smoothing == "auto":
+        return
     if isinstance(smoothing, str) or not 0.0 <= smoothing <= 1e-3:
-        raise ProfileError(f"smoothing = {smoothing} m; use 0 to 1e-3 m (10 micrometres is 1e-5)")
+        raise ProfileError(
+            f"smoothing = {smoothing}; use 'auto' or 0 to 1e-3 m (10 micrometres is 1e-5)"
+        )

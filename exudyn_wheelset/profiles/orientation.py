@@ -2,7 +2,8 @@
 
 The test looks at the level stretches of a profile. A rail head has 20 mm or more of nearly level
 surface at its extreme height, and falls from there to both sides. A wheel has its extreme height
-at the narrow flange tip and 30 mm or more of nearly level tread well away from that height.
+at the narrow flange tip and 30 mm or more of nearly level tread well away from that height. What
+is neither, but level over most of its width and falls at both ends, is a piece of a rail head.
 """
 
 from __future__ import annotations
@@ -60,4 +61,16 @@ def look_at(y: FloatArray, z: FloatArray) -> Look | None:
             best, widest = Look("wheel", 1 if beyond else -1, -sign), width
         elif head >= _HEAD_WIDTH and head > widest:
             best, widest = Look("rail", 1, sign), head
-    return best
+    return best or _plateau(height, z)
+
+
+def _plateau(height: FloatArray, z: FloatArray) -> Look | None:
+    """A piece of a rail head: level over most of its width, falling at both ends, on one side."""
+    for sign in (1, -1):
+        up = sign * height
+        top = float(np.max(sign * z))
+        falls = min(top - sign * z[0], top - sign * z[-1])
+        level = np.count_nonzero(top - up < 0.2 * _HEAD_FALL)
+        if falls > 0.2 * _HEAD_FALL and level > 0.6 * len(height):
+            return Look("rail", 1, sign)
+    return None

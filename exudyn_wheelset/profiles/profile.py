@@ -23,6 +23,8 @@ from scipy.interpolate import BSpline
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import curve as curves
 from exudyn_wheelset.profiles.curve import ArcTable
+from exudyn_wheelset.profiles.noise import curvature_noise, normal_noise
+from exudyn_wheelset.profiles.penalised import fit_penalised
 
 FloatArray = NDArray[np.float64]
 
@@ -32,8 +34,10 @@ _MINIMUM_SPAN = 2e-3
 _MAXIMUM_SPAN = 0.3
 _MAXIMUM_HEIGHT = 0.3
 _DATUM_TOLERANCE = 5e-3
-_RAIL_TOP_RANGE = 0.03
+RAIL_TOP_RANGE = 0.03
 _RAIL_FALL = 4e-3
+# Noise that moves the curvature by less than a thirtieth of a flat tread's needs no smoothing.
+_HARMLESS_CURVATURE = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +47,11 @@ class Profile:
     name: any text; kind: "wheel" or "rail".
     y, z: shape (n,), n >= 8 [m], in the frame of the module header, y strictly increasing.
     source: where the points come from. smoothing: rms distance of the points to the curve [m]; 0
-    makes the curve pass through the points. remarks: what a reader changed or noticed.
+    makes the curve pass through the points, "auto" smooths as much as the points' noise calls for
+    and leaves the distance that came out in its place. remarks: what a reader changed or noticed.
     is_mirrored: y runs to the other side (flange at y > 0, rail gauge face at y > 0).
+    is_automatic: the smoothing came from "auto". ends_at_gauge_face: a rail's gauge face is upright
+    or undercut where its points end, so its last point is the one nearest to the track centre.
 
     Raises ProfileError where the points cannot be such a profile; the message gives the mend.
     """
@@ -54,10 +61,12 @@ class Profile:
     y: FloatArray
     z: FloatArray
     source: str = ""
-    smoothing: float = 0.0
+    smoothing: float | str = 0.0
     remarks: Sequence[str] = ()
     _: KW_ONLY
     is_mirrored: bool = False
+    is_automatic: bool = False
+    ends_at_gauge_face: bool = False
     _cache: dict[object, object] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -67,6 +76,9 @@ class Profile:
         object.__setattr__(self, "y", y)
         object.__setattr__(self, "z", z)
         object.__setattr__(self, "remarks", tuple(str(remark) for remark in self.remarks))
+        check_points(self.name, y, z)
+        if self.smoothing == "auto":
+            self._smooth_automatically()
         smoothing = float(self.smoothing)
         if not 0.0 <= smoothing <= 1e-3:
             raise ProfileError(
@@ -74,7 +86,6 @@ class Profile:
                 "to the curve in metres, 0 to 1e-3 (10 micrometres is 1e-5)"
             )
         object.__setattr__(self, "smoothing", smoothing)
-        check_points(self.name, y, z)
         if self.is_mirrored:
             check_kind(self.name, self.kind, -y[::-1], z[::-1])
         else:
@@ -169,9 +180,9 @@ class Profile:
             remarks = (*remarks, f"{lost} points cut off that overhang after turning the profile")
         return replace(self, y=y[keep], z=z[keep], remarks=remarks)
 
-    def smoothed(self, tolerance: float) -> Profile:
-        """The same points with a curve at `tolerance` rms distance [m] to them."""
-        return replace(self, smoothing=tolerance)
+    def smoothed(self, tolerance: float | str) -> Profile:
+        """The same points with a curve at `tolerance` rms distance [m] to them, or "auto"."""
+        return replace(self, smoothing=tolerance, is_automatic=False)
 
     def with_outliers_removed(self, tolerance: float) -> Profile:
         """The profile without points farther than `tolerance` [m] from the rest; in remarks.
@@ -210,7 +221,7 @@ class Profile:
         y = np.append(table.coefficients[:, 0], self._curve_end[0])
         z = np.append(table.coefficients[:, 4], self._curve_end[1])
         keep = advancing_part(y, z)
-        return replace(self, y=y[keep], z=z[keep], smoothing=0.0)
+        return replace(self, y=y[keep], z=z[keep], smoothing=0.0, is_automatic=False)
 
     @property
     def span(self) -> tuple[float, float]:
@@ -219,10 +230,42 @@ class Profile:
         return float(low), float(high)
 
     @property
+    def noise(self) -> float:
+        """Standard deviation of the points' noise, normal to the curve [m]; see noise.py.
+
+        White noise only: what varies slowly from point to point is shape to any such estimate.
+        """
+        if "noise" not in self._cache:
+            self._cache["noise"] = normal_noise(self._points)
+        noise = self._cache["noise"]
+        assert isinstance(noise, float)
+        return noise
+
+    @property
+    def _points(self) -> FloatArray:
+        return np.column_stack((self.y, self.z))
+
+    def _smooth_automatically(self) -> None:
+        """Replace smoothing "auto" by the distance of the penalised curve; 0 without noise."""
+        if curvature_noise(self.noise, self._points) < _HARMLESS_CURVATURE:
+            object.__setattr__(self, "smoothing", 0.0)
+            return
+        fit = fit_penalised(self._points)
+        self._cache["curve"] = fit.curve
+        object.__setattr__(self, "smoothing", min(fit.distance, 1e-3))
+        object.__setattr__(self, "is_automatic", True)
+        remark = f"smoothed automatically, points {1e6 * fit.distance:.2g} micrometres (rms) off"
+        if fit.correlation:
+            remark += f"; their errors are alike over {1e3 * fit.correlation:.1f} mm"
+        object.__setattr__(self, "remarks", (*self.remarks, remark))
+
+    @property
     def _curve(self) -> BSpline:
         if "curve" not in self._cache:
-            points = np.column_stack((self.y, self.z))
-            self._cache["curve"] = curves.fit_curve(points, self.smoothing)
+            if self.is_automatic:
+                self._cache["curve"] = fit_penalised(self._points).curve
+            else:
+                self._cache["curve"] = curves.fit_curve(self._points, float(self.smoothing))
         return self._cache["curve"]
 
     @property
@@ -350,7 +393,7 @@ def check_kind(name: str, kind: str, y: FloatArray, z: FloatArray) -> None:
             f"{name}: the top lies at z = {1e3 * z[top]:.2f} mm; it is z = 0 on a rail: shift z, "
             "or turn its sign if z points down"
         )
-    if abs(y[top]) > _RAIL_TOP_RANGE or not 0 < top < len(z) - 1:
+    if abs(y[top]) > RAIL_TOP_RANGE or not 0 < top < len(z) - 1:
         raise ProfileError(
             f"{name}: given as a rail, but the highest point lies at y = {1e3 * y[top]:.2f} mm "
             f"in the range {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm; a rail has it near y = 0 "

@@ -1,14 +1,15 @@
 """MiniProf measurements: wheels (.whl), rails (.ban, .rai) and templates (.mpt), in millimetres.
 
-The header has lines key=value, in old files free text; a blank line ends it and the points follow,
-in the columns that ColumnDef names (X, Y, then angle, curvature and others, not used here).
-Comment lines begin with ", !, % or #. XOffset and YOffset are added. Templates have sections in
-brackets and straight pieces MPDn=L x1 y1 x2 y2.
+The header has lines key=value, in files of version 1 free text and numbers; a blank line may end
+it. The points follow in the columns that ColumnDef names (X, Y, then angle, curvature, others,
+not used here), separated by blanks, tabs, commas or semicolons. Comments begin with ", !, % or #.
+XOffset and YOffset are added. Templates (.mpt) have sections in brackets: pieces of points, or
+straight pieces MPDn=L x1 y1 x2 y2.
 
 Conventions (from files of the instrument): wheel: X from the flange back towards the field side,
-Y = 0 on the tread 70 mm from the flange back, towards the flange tip; rail: X towards the gauge
-side, Y up. So y = X - 70 mm, z = -Y for a wheel and y = -X, z = Y for a rail; whether Y was up or
-down is checked on the shape.
+Y = 0 on the tread at WheelDiameterTaperline, 70 mm if that is not given, towards the flange tip;
+rail: X towards the gauge side, Y up. So y = X - 70 mm, z = -Y for a wheel and y = -X, z = Y for a
+rail. Both are checked on the shape, because users turn their files: see `raw.RawProfile`.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from exudyn_wheelset.profiles.formats.raw import (
     number,
     shorten,
 )
+from exudyn_wheelset.profiles.formats.rows import find_table
 
 NAME = "MiniProf"
 TAPE_FROM_FLANGE_BACK = 70.0
@@ -30,6 +32,7 @@ _KEYS = re.compile(
     r"^\s*(XYPoints|ColumnDef|MPTypeNo|MPSerNo|ProgramName|RefPoint1|MPDC)\s*=", re.I
 )
 _COMMENT = ('"', "!", "%", "#")
+_DECIMAL_COMMAS = re.compile(r"(\s*[+-]?\d+,\d+(\s+|$)){2,}")
 
 
 def looks_like(lines: list[str]) -> bool:
@@ -50,12 +53,12 @@ def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
         raw.kind = "rail"
     header: dict[str, tuple[str, int]] = {}
     pieces: list[tuple[str, int]] = []
-    data_from = _header(lines, header, pieces)
+    _header(lines, header, pieces)
     raw.name = header.get("filename", ("", 0))[0]
     if pieces:
         _template(raw, pieces, label)
     else:
-        _table(raw, lines, data_from, header, label)
+        _table(raw, lines, header, label)
     offsets = []
     for axis, key in (("y", "xoffset"), ("z", "yoffset")):
         text, line = header.get(key, ("", 0))
@@ -67,24 +70,25 @@ def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
             raw.remarks.append(f"{axis} shifted by {value:g} mm ({key})")
     wheel = (kind or raw.kind) == "wheel"
     if wheel:
-        raw.y = [x + offsets[0] - TAPE_FROM_FLANGE_BACK for x in raw.y]
+        given = number(header.get("wheeldiametertaperline", ("", 0))[0])
+        tape = given if given is not None and 50.0 <= given <= 100.0 else TAPE_FROM_FLANGE_BACK
+        raw.y = [x + offsets[0] - tape for x in raw.y]
         raw.z = [-(y + offsets[1]) for y in raw.z]
         raw.remarks.append(
-            f"MiniProf wheel: y = 0 put {TAPE_FROM_FLANGE_BACK:g} mm from the flange back, "
-            "z turned up"
+            f"MiniProf wheel: y = 0 put {tape:g} mm from the flange back, z turned up"
         )
     else:
         raw.y = [-(x + offsets[0]) for x in raw.y]
         raw.z = [y + offsets[1] for y in raw.z]
+        raw.gauge_by_depth = True
         raw.remarks.append("MiniProf rail: y turned to the field side")
     return raw
 
 
 def _header(
     lines: list[str], header: dict[str, tuple[str, int]], pieces: list[tuple[str, int]]
-) -> int:
-    """Collect the header; returns the index of the first line that may hold a point."""
-    last = -1
+) -> None:
+    """Collect key=value lines; the pieces MPDn of a template go to `pieces`."""
     for index, line in enumerate(lines):
         match = re.match(r"^\s*([A-Za-z][\w .]*?)\s*=\s*(.*?)\s*$", line)
         if match:
@@ -92,24 +96,10 @@ def _header(
             header.setdefault(key, (match[2], index + 1))
             if re.fullmatch(r"mpd\d+", key):
                 pieces.append((match[2], index + 1))
-            last = index
-    if last >= 0:
-        return last + 1
-    for index, line in enumerate(lines):
-        tokens = line.split()
-        if not tokens and index:
-            return index + 1
-        if tokens and number(tokens[0]) is not None:
-            return index
-    return 0
 
 
 def _table(
-    raw: RawProfile,
-    lines: list[str],
-    data_from: int,
-    header: dict[str, tuple[str, int]],
-    label: str,
+    raw: RawProfile, lines: list[str], header: dict[str, tuple[str, int]], label: str
 ) -> None:
     definition, definition_line = header.get("columndef", ("X,Y", 0))
     names = [name.strip().upper() for name in re.split(r"[,;\s]+", definition) if name.strip()]
@@ -118,31 +108,47 @@ def _table(
             label, definition_line, f"ColumnDef={shorten(definition)} has no X and Y; mend it"
         )
     columns = names.index("X"), names.index("Y")
-    for index in range(data_from, len(lines)):
-        text = lines[index].strip().strip("\x1a")
-        if not text or text.startswith(_COMMENT):
-            continue
-        tokens = re.split(r"[\s;]+", text)
+    texts = []
+    for count, whole in enumerate(lines, start=1):
+        text = whole.strip().strip("\x1a")
+        if text and not text.startswith(_COMMENT):
+            texts.append((count, text))
+    template = any(text.startswith("[") for _, text in texts[:5])
+    table = find_table(texts, _cells, label, join=template)
+    raw.remarks += table.remarks
+    for line, tokens in table.rows:
         if len(tokens) <= max(columns):
             raise fault(
                 label,
-                index + 1,
-                f"{len(tokens)} of {len(names)} columns ({shorten(text)!r}); "
+                line,
+                f"{len(tokens)} of {len(names)} columns ({shorten(' '.join(tokens))!r}); "
                 "add the missing value or delete the line",
             )
-        x = coordinate(tokens[columns[0]], label, index + 1, "X")
-        raw.add(x, coordinate(tokens[columns[1]], label, index + 1, "Y"), index + 1)
-    text, line = header.get("xypoints", ("", 0))
+        x = coordinate(tokens[columns[0]], label, line, "X", finite=False)
+        raw.add(x, coordinate(tokens[columns[1]], label, line, "Y", finite=False), line)
+    raw.check_finite(label)
+    text, announced_line = header.get("xypoints", ("", 0))
     announced = number(text) if text else None
     if announced is not None and math.isfinite(announced):
         if len(raw.y) < 0.5 * announced:
             raise fault(
                 label,
-                line,
-                f"XYPoints={text} but {len(raw.y)} points follow; the file seems to be cut off",
+                announced_line,
+                f"XYPoints={text} but {len(raw.y)} points follow; the file seems to be cut off: "
+                f"export it again, or write XYPoints={len(raw.y)} if that is all there is",
             )
         if round(announced) != len(raw.y):
             raw.remarks.append(f"XYPoints={text} but {len(raw.y)} points")
+
+
+def _cells(text: str) -> list[str]:
+    """The cells of a row; commas between digits of two columns are decimal signs."""
+    if ";" in text or not _DECIMAL_COMMAS.fullmatch(text):
+        separators = r"[\s;]+" if ";" in text and "," in text else r"[\s,;]+"
+        cells = [cell for cell in re.split(separators, text) if cell]
+    else:
+        cells = text.split()
+    return [cell.replace(",", ".") for cell in cells]
 
 
 def _template(raw: RawProfile, pieces: list[tuple[str, int]], label: str) -> None:

@@ -22,6 +22,9 @@ _UNIT_WORDS = {
     "millimeter": "mm",
     "millimetres": "mm",
     "millimeters": "mm",
+    "millimètre": "mm",
+    "millimètres": "mm",
+    "milímetros": "mm",
     "m": "m",
     "metre": "m",
     "meter": "m",
@@ -31,6 +34,10 @@ _UNIT_WORDS = {
     "in": "inch",
     "inch": "inch",
     "inches": "inch",
+    "zoll": "inch",
+    "pouce": "inch",
+    "pouces": "inch",
+    "pulgadas": "inch",
     '"': "inch",
 }
 _NUMBER = re.compile(
@@ -50,6 +57,8 @@ class RawProfile:
     unit: one of UNITS, or None where the file does not say; unit_line, kind_line: where it says.
     trusted: the file says that it is in the package's frame, so nothing is turned or shifted.
     rail_datum: the format has no head centre; y = 0 is put midway between the flanks of a rail.
+    gauge_by_depth: the direction of y is often turned by users; where only one side of a rail
+    reaches down to where the gauge is measured, that is taken as the gauge side.
     """
 
     format: str
@@ -65,12 +74,27 @@ class RawProfile:
     remarks: list[str] = field(default_factory=list)
     trusted: bool = False
     rail_datum: bool = False
+    gauge_by_depth: bool = False
 
     def add(self, y: float, z: float, line: int) -> None:
         """Add one point."""
         self.y.append(y)
         self.z.append(z)
         self.lines.append(line)
+
+    def check_finite(self, label: str) -> None:
+        """Raise ProfileError, naming every line, where a coordinate is NaN or infinite."""
+        bad = [
+            (line, "y" if not math.isfinite(y) else "z", y if not math.isfinite(y) else z)
+            for y, z, line in zip(self.y, self.z, self.lines, strict=True)
+            if not (math.isfinite(y) and math.isfinite(z))
+        ]
+        if bad:
+            line, column, value = bad[0]
+            more = f" (so are lines {listed([str(b[0]) for b in bad[1:]], 100)})" if bad[1:] else ""
+            raise fault(
+                label, line, f"{column} is {value:g}{more}; delete the line or mend the value"
+            )
 
 
 def fault(label: str, line: int | None, message: str) -> ProfileError:
@@ -115,19 +139,25 @@ def split_lines(text: str) -> list[str]:
 
 def number(token: str) -> float | None:
     """The value of a token that is a number and nothing else (Fortran's D exponent too)."""
+    token = token.replace("\u2212", "-")
     if not _NUMBER.fullmatch(token):
         return None
     return float(token.lower().replace("d", "e"))
 
 
-def coordinate(token: str, label: str, line: int, column: str) -> float:
-    """A coordinate; ProfileError naming file and line for NaN, infinity or a word."""
+def coordinate(token: str, label: str, line: int, column: str, *, finite: bool = True) -> float:
+    """A coordinate; ProfileError naming file and line for a word, NaN and infinity.
+
+    finite: False leaves NaN and infinity to `RawProfile.check_finite`, which names all of them.
+    """
     value = number(token)
     if value is None:
         raise fault(
             label, line, f"{column} is {shorten(token)!r}, not a number; mend or delete the line"
         )
     if not math.isfinite(value):
+        if not finite:
+            return value
         raise fault(label, line, f"{column} is {token}; delete the line or mend the value")
     if abs(value) > _LARGEST_NUMBER:
         raise fault(label, line, f"{column} = {value:g} is no length of a profile; mend the value")

@@ -13,7 +13,6 @@ another separator tells the columns apart.
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Callable
 
 from exudyn_wheelset.profiles.formats.raw import (
@@ -23,21 +22,45 @@ from exudyn_wheelset.profiles.formats.raw import (
     shorten,
     unit_word,
 )
+from exudyn_wheelset.profiles.formats.rows import (
+    Split,
+    columns_by_content,
+    find_table,
+    looks_numeric,
+)
 from exudyn_wheelset.profiles.profile import Profile
 
 NAME = "two-column text"
-Split = Callable[[str], list[str]]
 _HEADER = re.compile(r"^\s*[#%!/\"]+\s*(name|kind|unit|units|source)\s*[:=]\s*(.*?)\s*$", re.I)
 _COMMENT = ("#", "%", "!", "//")
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?|[+-]?\d+(?:[eE][+-]?\d+)?")
-_COLUMN_NAMES = (("y", "z"), ("x", "y"), ("x", "z"), ("lateral", "vertical"))
+_COLUMN_NAMES = (
+    (("y",), ("z",)),
+    (("x",), ("y",)),
+    (("x",), ("z",)),
+    (
+        (
+            *("lateral", "laterally", "horizontal", "transversal", "transverse", "quer", "breite"),
+            *("width", "largeur", "ancho", "larghezza", "orizzontale", "bredde", "poziome"),
+        ),
+        (
+            *("vertical", "vertikal", "height", "höhe", "hoehe", "hauteur", "altura", "altezza"),
+            *("verticale", "höjd", "højde", "pionowe"),
+        ),
+    ),
+)
+_UNIT_KEYS = ("unit", "units", "einheit", "einheiten", "unité", "unite", "unidad", "unità", "enhet")
+_KIND_KEYS = ("kind", "type", "typ", "art", "object", "objekt", "tipo", "profile", "profil")
+_KIND_WORDS = {
+    "wheel": ("wheel", "rad", "roue", "rueda", "ruota", "hjul"),
+    "rail": ("rail", "schiene", "carril", "rotaia", "räl", "skena", "skinne"),
+}
 
 
-def read(lines: list[str], label: str) -> RawProfile:
+def read(lines: list[str], label: str, side: str = "left") -> RawProfile:
     """Read a two-column file; ProfileError names file, line and mend."""
     raw = RawProfile(NAME)
-    rows: list[tuple[int, str]] = []
-    words: list[tuple[int, str]] = []
+    texts: list[tuple[int, str]] = []
     for count, line in enumerate(lines, start=1):
         text = line.strip().strip("\x1a")
         if not text:
@@ -46,39 +69,44 @@ def read(lines: list[str], label: str) -> RawProfile:
             _header(raw, text, count, label)
             continue
         text = _without_comment(text)
-        if re.match(r"[\"+\-.,;]*\s*\d|[+-]?(nan|inf)\b", text, re.I) or rows:
-            rows.append((count, text))
-        elif text:
-            words.append((count, text))
-    if not rows:
+        if text:
+            texts.append((count, text))
+    numeric = [(count, text) for count, text in texts if looks_numeric(text)]
+    if not numeric:
         raise fault(label, None, "no line with numbers; give lines with y and z")
-    split, decimal_comma, separator = _separator([text for _, text in rows], label, rows[0][0])
-    first, second = _columns(raw, words, split)
-    most = Counter(len(split(text)) for _, text in rows).most_common(1)[0][0]
-    if most == 1:
-        raise fault(label, rows[0][0], "one column; give y and z on each line")
-    for count, text in rows:
-        tokens = split(text)
+    split, decimal_comma, separator = _separator(
+        [text for _, text in numeric], label, numeric[0][0]
+    )
+    table = find_table(texts, split, label, side)
+    rows, width = table.rows, table.width
+    words = [(count, text) for count, text in texts if count < rows[0][0]]
+    _words_of_header(raw, words)
+    first, second, named = _columns(raw, words, split)
+    if not named and width > 2:
+        kept = columns_by_content(rows, width)
+        first, second = kept[:2] if len(kept) >= 2 else (0, 1)
+    for count, tokens in rows:
         if len(tokens) <= max(first, second):
             raise fault(
                 label,
                 count,
-                f"{len(tokens)} of {most} columns ({shorten(text)!r}); "
+                f"{len(tokens)} of {width} columns ({shorten(' '.join(tokens))!r}); "
                 "add the missing value or delete the line",
             )
-        if decimal_comma:
-            tokens = [token.replace(",", ".") for token in tokens]
-        y = coordinate(tokens[first], label, count, "y")
-        raw.add(y, coordinate(tokens[second], label, count, "z"), count)
+        y = coordinate(tokens[first], label, count, "y", finite=False)
+        raw.add(y, coordinate(tokens[second], label, count, "z", finite=False), count)
+    raw.check_finite(label)
+    raw.remarks += table.remarks
     if separator != "blanks":
         raw.remarks.append(f"columns separated by {separator}")
     if decimal_comma:
         raw.remarks.append("decimal commas")
-    if most > 2 and (first, second) != (0, 1):
-        raw.remarks.append(f"columns {first + 1} and {second + 1} of {most} taken as y and z")
-    elif most > 2:
-        raw.remarks.append(f"the first 2 of {most} columns taken as y and z")
-    raw.trusted = raw.kind is not None
+    if width > 2 and (first, second) != (0, 1):
+        raw.remarks.append(f"columns {first + 1} and {second + 1} of {width} taken as y and z")
+    elif width > 2:
+        raw.remarks.append(f"the first 2 of {width} columns taken as y and z")
+    raw.trusted = raw.kind is not None and raw.kind_line is not None
+    raw.gauge_by_depth = not raw.trusted
     return raw
 
 
@@ -130,22 +158,27 @@ def _separator(texts: list[str], label: str, line: int) -> tuple[Split, bool, st
         return sum(bool(test(text)) for text in sample) > half
 
     def by(mark: str) -> Split:
-        return lambda text: [token.strip().strip('"') for token in text.split(mark)]
+        return lambda text: [token.strip().strip('"') for token in text.rstrip(mark).split(mark)]
+
+    def with_points(split: Split) -> Split:
+        return lambda text: [token.replace(",", ".") for token in split(text)]
 
     if often(lambda text: ";" in text):
         comma = often(lambda text: "," in text)
-        return by(";"), comma, "semicolons"
+        return with_points(by(";")) if comma else by(";"), comma, "semicolons"
     if not often(lambda text: "," in text):
-        tabs = often(lambda text: "\t" in text)
-        return str.split, False, "tabs" if tabs else "blanks"
+        if often(lambda text: "\t" in text):
+            return _by_tabs, False, "tabs"
+        return str.split, False, "blanks"
     if often(
         lambda text: (
             len(text.split()) >= 2
             and all(_DECIMAL_COMMA.fullmatch(token) for token in text.split()[:2])
         )
     ):
-        tabs = often(lambda text: "\t" in text)
-        return str.split, True, "tabs" if tabs else "blanks"
+        if often(lambda text: "\t" in text):
+            return with_points(_by_tabs), True, "tabs"
+        return with_points(str.split), True, "blanks"
     if often(lambda text: re.fullmatch(r"[+-]?\d+,\d+,[+-]?\d+,\d+", text)):
         raise fault(
             label,
@@ -155,18 +188,42 @@ def _separator(texts: list[str], label: str, line: int) -> tuple[Split, bool, st
     return by(","), False, "commas"
 
 
-def _columns(raw: RawProfile, words: list[tuple[int, str]], split: Split) -> tuple[int, int]:
+def _by_tabs(text: str) -> list[str]:
+    return [cell.strip().strip('"') for cell in re.split(r"\t+|\s{2,}", text.strip())]
+
+
+def _columns(raw: RawProfile, words: list[tuple[int, str]], split: Split) -> tuple[int, int, bool]:
     """Columns of y and z by the line of column names, if there is one; takes the unit from it."""
-    for line, text in reversed(words[-3:]):
-        cells = [str(cell).lower().strip() for cell in split(text)]
-        names = [re.sub(r"[^a-z].*$", "", cell) for cell in cells]
+    for line, text in reversed(words[-4:]):
+        cells = [str(cell).lower().strip().strip('"') for cell in split(text)]
+        named = [cell for cell in cells if not re.fullmatch(r"[\[(].*[\])]", cell)]
+        names = [re.sub(r"[^a-zà-ÿ].*$", "", cell) for cell in named]
         units = [unit_word(m[1]) for cell in cells if (m := re.search(r"[\[(](.*?)[\])]", cell))]
+        if not units and all(unit_word(cell) for cell in cells):
+            units = [unit_word(cells[0])]
         if raw.unit is None and units and units[0] is not None:
             raw.unit, raw.unit_line = units[0], line
-        for first, second in _COLUMN_NAMES:
-            if first in names and second in names:
-                return names.index(first), names.index(second)
-    return 0, 1
+        for firsts, seconds in _COLUMN_NAMES:
+            across = [k for k, name in enumerate(names) if name in firsts]
+            upward = [k for k, name in enumerate(names) if name in seconds]
+            if across and upward:
+                return across[0], upward[0], True
+    return 0, 1, False
+
+
+def _words_of_header(raw: RawProfile, words: list[tuple[int, str]]) -> None:
+    """Unit and kind that lines such as "Unit: mm" or "Einheit;mm" name, in several languages."""
+    for line, text in words:
+        parts = [part.strip().strip('"') for part in re.split(r"[:=;,\t]", text, maxsplit=1)]
+        if len(parts) < 2:
+            continue
+        key, value = parts[0].lower(), parts[1].split(";")[0].split(",")[0].strip()
+        if key in _UNIT_KEYS and raw.unit is None and unit_word(value):
+            raw.unit, raw.unit_line = unit_word(value), line
+        elif key in _KIND_KEYS and raw.kind is None:
+            for kind, names in _KIND_WORDS.items():
+                if any(name in value.lower() for name in names):
+                    raw.kind = kind
 
 
 def _one_line(text: str) -> str:
