@@ -39,7 +39,8 @@ def paper_wheelset(
     """The full six-degree-of-freedom model of the paper's wheelset on real profiles.
 
     driven: the spin is held at V/r0, as in the paper's equations; False lets the wheelset find
-    its own spin. contact: changes to the arguments of `contact_parameters`.
+    its own spin. contact: changes to the arguments of `contact_parameters`; the creep law is
+    Polach's of 1999, as in the paper.
     """
     given = paper_parameters(spring_set)
     return WheelsetOnFrame(
@@ -57,6 +58,7 @@ def paper_wheelset(
         ),
         axle_load=given.axle_load,
         contact={
+            "creep": "polach",
             "friction": given.friction,
             "shear_modulus": given.shear_modulus,
             "poisson": given.poisson,
