@@ -182,3 +182,30 @@ def test_worst_check_is_warned_of():
     assert first.startswith("car at 20 m/s: the creep law 'b' is not linear")
     assert second.startswith("car at 30 m/s: the creep law 'c' has the slope -dFy/dxi = 15 MN")
     assert "+50 % (limit 10 %)" in second
+
+
+@pytest.mark.parametrize(
+    ("spin", "contact", "shen"),
+    [(0.0, (14.98, None), 14.6), (-0.04, (12.42, None), 14.5), (-0.083, (9.70, 9.9), 14.1)],
+)
+def test_slopes_against_full_contact(spin, contact, shen):
+    """The truck's patch at rest by the program CONTACT: -dFx/dxi, -dFy/dxi [MN]; nu 0.28.
+
+    Figures of the same patch, to three digits of its axes; CONTACT's and this package's grids have
+    1 % and more between them at zero spin.
+    """
+    patch = CreepPatch(creep_law("exact"), **PATCH | {"spin": spin, "poisson": 0.28})
+    exact, by_shen = creep_slopes([patch])[0], creep_slopes([patch], "shen-hedrick-elkins")[0]
+    for got, expected in zip(exact, contact, strict=True):
+        if expected is not None:
+            assert got == pytest.approx(1e6 * expected, rel=0.04)
+    assert by_shen[0] == pytest.approx(1e6 * shen, rel=0.055)
+
+
+def test_the_exact_law_tells_the_truck_from_its_fast_law():
+    """Shen-Hedrick-Elkins is half again too stiff along x on the truck's patches."""
+    system = vehicle_system("truck", creep="shen-hedrick-elkins")
+    with pytest.warns(WheelsetWarning, match="'shen-hedrick-elkins' has the slope -dFx"):
+        point = linear_critical_speed(system, 35.0, 50.0)
+    assert point.slope_ratio == pytest.approx(14.1 / 9.70, rel=0.05)
+    assert point.law.direction == "x"
