@@ -1,11 +1,17 @@
 """The options of a script against the descriptions that they name."""
 
 import argparse
+import warnings
 
 import pytest
 
-from exudyn_wheelset.errors import ProfileError
-from exudyn_wheelset.front.script import add_profile_options, profiles_from
+from exudyn_wheelset.errors import ProfileError, WheelsetWarning
+from exudyn_wheelset.front.script import (
+    add_profile_options,
+    profiles_from,
+    run_script,
+    script_parser,
+)
 from exudyn_wheelset.profiles import load_profile, save_profile, shapes
 
 
@@ -48,3 +54,18 @@ def test_wrong_words_are_refused(capsys):
     assert "'auto' or metres" in capsys.readouterr().err
     with pytest.raises(ProfileError, match="is a rail"):
         parsed("--wheel", "UIC60")
+
+
+def test_warnings_are_one_line_of_the_script(capsys):
+    parser = script_parser("a script")
+    parser.prog = "truck.py"
+
+    def run(_):
+        for word in ("stiff", "soft"):
+            warnings.warn(f"the law is too {word}", WheelsetWarning, stacklevel=1)
+        return {"speed": 41.7}
+
+    assert run_script(run, parser, ["--json"]) == 0
+    captured = capsys.readouterr()
+    assert captured.out == '{"speed": 41.7}\n'
+    assert captured.err == "truck.py: the law is too stiff\n"

@@ -6,13 +6,14 @@ import argparse
 import json
 import re
 import sys
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from exudyn_wheelset.contact.descriptions import Track
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.results.files import plain
 
@@ -132,19 +133,40 @@ def _smoothing(text: str) -> float | str:
         raise argparse.ArgumentTypeError(f"{text!r}; give 'auto' or metres, such as 1e-5") from None
 
 
+def _shown_by(prog: str, others: Callable[..., None]) -> Callable[..., None]:
+    """What shows a warning of this package as one line of the script, and `others` as they do.
+
+    A line of the script that warns again, of another speed, is heard once.
+    """
+    heard = set()
+
+    def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
+        if issubclass(category, WheelsetWarning):
+            if place not in heard:
+                heard.add(place)
+                print(f"{prog}: {message}", file=sys.stderr)
+        else:
+            others(message, category, *place, **more)
+
+    return show
+
+
 def run_script(
     run: Callable[[argparse.Namespace], dict[str, Any]],
     parser: argparse.ArgumentParser,
     argv: Sequence[str] | None = None,
     show: Callable[[dict[str, Any]], None] | None = None,
 ) -> int:
-    """Run a script's `run`, print its numbers, turn our errors into one line; exit status.
+    """Run a script's `run`, print its numbers, turn our errors and warnings into one line each.
 
-    show prints the numbers for people; with --json they are printed as one JSON object.
+    Returns the exit status. show prints the numbers for people; with --json they are printed as
+    one JSON object.
     """
     arguments = parser.parse_args(argv)
     try:
-        numbers = run(arguments)
+        with warnings.catch_warnings():
+            warnings.showwarning = _shown_by(parser.prog, warnings.showwarning)
+            numbers = run(arguments)
     except WheelsetError as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 2
