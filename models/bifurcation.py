@@ -52,7 +52,7 @@ from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.settling import watched_index
+from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.system import DynamicSystem
 

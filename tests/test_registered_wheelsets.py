@@ -22,7 +22,7 @@ from exudyn_wheelset import (
     wheelsets_of,
 )
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
-from exudyn_wheelset.stability.hunting.settling import watched_index
+from exudyn_wheelset.stability.hunting.watching import watched_index
 
 WHEELSET = Wheelset(mass=1813.0, inertia=(1120.0, 112.0, 1120.0), radius=0.46, wheel="S1002")
 TRACK = Track(rail="UIC60")

@@ -2,10 +2,11 @@
 
 From a speed above the linear critical one, where the vehicle hunts, the speed falls in small
 steps. Each run starts from the last state of the one before and is simulated until its peaks have
-settled (see `settling`). The first speed at which the motion dies out lies beyond the jump, the
-fold of the limit cycle; the interval between it and the last speed that hunted is bisected, each
-time from the last hunting state. It is the way a test on a roller rig finds the same number, and
-independent of collocation and continuation.
+settled (see `settling`). The first speed at which the motion of a truck dies out lies beyond its
+jump, the fold of the limit cycle; the interval between it and the last speed at which that truck
+hunted is bisected, each time from the last state that hunted. Where others still hunt the descent
+goes on. It is the way a test on a roller rig finds the same number, and independent of collocation
+and continuation.
 
 Only stable motion is seen, and only the one that the first state leads to. Just below the fold a
 motion lingers before it dies out, so the criterion of settling sets what can be resolved.
@@ -28,12 +29,8 @@ from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.branch import NamedColumns
-from exudyn_wheelset.stability.hunting.settling import (
-    Motion,
-    Settling,
-    typical_period,
-    watched_index,
-)
+from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
+from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
@@ -46,10 +43,13 @@ class Descent:
 
     speeds      (k,) speeds that hunted, in the order they were run [m/s]
     amplitude   (k, displacements) half of peak to peak [m or rad]; columns also by name
+    trucks      (k, trucks) mean amplitude of the watched displacement of each truck; by name
     period      (k,) [s]
     settled     (k,) whether the peaks settled; if not, the run was ended after all its cycles
     states      (k, n) last state at each speed
-    jumped      highest speed at which hunting died out [m/s]; nan while none has
+    stops       bracket [m/s] by truck: highest speed at which its hunting had died out, lowest at
+                which it hunted; only trucks that stopped
+    jumped      highest speed at which all hunting died out [m/s]; nan while it has not
     time        simulated in total [s]
     outcome     how it ended; `reason` says it in words
     method      "descent"
@@ -58,9 +58,11 @@ class Descent:
 
     speeds: Array
     amplitude: NamedColumns
+    trucks: NamedColumns
     period: Array
     settled: Array
     states: Array
+    stops: dict[str, tuple[float, float]]
     jumped: float
     time: float
     outcome: Outcome
@@ -78,6 +80,11 @@ class Descent:
         return self.jumped, float(np.min(self.speeds))
 
     @property
+    def by_truck(self) -> dict[str, float]:
+        """Speed [m/s] at which each truck stops hunting, the middle of its bracket."""
+        return {name: 0.5 * sum(bracket) for name, bracket in self.stops.items()}
+
+    @property
     def speed(self) -> float:
         """Speed of the jump [m/s], the middle of the bracket; nan if it was not reached."""
         return 0.5 * sum(self.bracket)
@@ -92,6 +99,8 @@ class Descent:
             "jumped": None if np.isnan(self.jumped) else self.jumped,
             "time": self.time,
             "displacements": list(self.amplitude.names),
+            "trucks": list(self.trucks.names),
+            "stops": self.stops,
         }
         arrays = {name: np.asarray(getattr(self, name)) for name in _ARRAYS}
         return write_record(path, arrays, record)
@@ -102,10 +111,12 @@ class Descent:
         arrays, record = read_record(path, KIND)
         fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
         fields["amplitude"] = NamedColumns(fields["amplitude"], record["displacements"])
+        fields["trucks"] = NamedColumns(fields["trucks"], record["trucks"])
         jumped = record["jumped"]
         return cls(
             **fields,
             jumped=np.nan if jumped is None else float(jumped),
+            stops={name: tuple(bracket) for name, bracket in record["stops"].items()},
             time=record["time"],
             outcome=Outcome.read(record["outcome"]),
             record=record,
@@ -121,7 +132,7 @@ class Descent:
         return ax
 
 
-_ARRAYS = ("speeds", "amplitude", "period", "settled", "states")
+_ARRAYS = ("speeds", "amplitude", "trucks", "period", "settled", "states")
 
 
 def quasi_static_descent(
@@ -144,7 +155,8 @@ def quasi_static_descent(
     tolerance    width of the interval that holds the jump in the end [m/s]
     state        (n,) to start from; else the equilibrium at `high` and the least damped mode,
                  `disturbance` times its scale large
-    watch        displacement whose peaks decide (name or index; default the first lateral one)
+    watch        displacement whose peaks decide (name or index; default the lateral displacement
+                 of each truck's first wheelset)
     settling     criterion on the peaks
     state_file   kept up to date after each finished speed; if it exists, the run goes on from it
 
@@ -158,7 +170,8 @@ def quasi_static_descent(
             f"{tolerance:g} m/s must be positive"
         )
     settling = settling or Settling()
-    run = _Run(system, watched_index(system, watch), settling, high, low, step, tolerance)
+    watched = watched_trucks(system, watch)
+    run = _Run(system, watched, settling, high, low, step, tolerance)
     if state_file is not None and Path(state_file).with_suffix(".npz").exists():
         run.resume(Path(state_file).with_suffix(".npz"))
     with tqdm(disable=not progress, unit="speed", desc="descent", initial=len(run)) as bar:
@@ -182,18 +195,18 @@ class _Run:
     def __init__(
         self,
         system: DynamicSystem,
-        watch: int,
+        watched: dict[str, int],
         settling: Settling,
         high: float,
         low: float,
         step: float,
         tolerance: float,
     ) -> None:
-        self.system, self.watch, self.settling = system, watch, settling
+        self.system, self.watched, self.settling = system, watched, settling
         self.high, self.low, self.step, self.tolerance = high, low, step, tolerance
         self.settings = {
             **asdict(settling),
-            "watch": system.state_names[watch],
+            "watch": [system.state_names[index] for index in watched.values()],
             "high": high,
             "low": low,
             "step": step,
@@ -202,9 +215,11 @@ class _Run:
         self.record = describe(system, "descent", self.settings)
         self.speeds: list[float] = []
         self.amplitudes: list[Array] = []
+        self.trucks: list[list[float]] = []
         self.periods: list[float] = []
         self.settled: list[bool] = []
         self.states: list[Array] = []
+        self.stops: dict[str, tuple[float, float]] = {}
         self.jumped = np.nan
         self.time = 0.0
         self.outcome: Outcome | None = None
@@ -216,14 +231,8 @@ class _Run:
         system, speed = self.system, self.high
         if state is None:
             state = mode_disturbance(system, speed, disturbance)
-        motion = Motion(
-            system,
-            speed,
-            np.asarray(state, dtype=float),
-            typical_period(system, speed),
-            self.watch,
-            self.settling,
-        )
+        start = np.asarray(state, dtype=float)
+        motion = self._motion(speed, start, typical_period(system, speed))
         verdict = motion.decide()
         if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
             raise AnalysisError(
@@ -234,14 +243,12 @@ class _Run:
         self._keep(speed, motion, verdict is Ending.SETTLED)
 
     def advance(self) -> None:
-        """Run the next speed, of the descent or of the bisection."""
-        last = int(np.argmin(self.speeds))
+        """Run the next speed, of the descent or of a bisection."""
+        last = self._last(self._hunting())
         above = self.speeds[last]
-        speed = above - self.step if np.isnan(self.jumped) else 0.5 * (above + self.jumped)
+        speed = above - self.step if np.isnan(self.below) else 0.5 * (above + self.below)
         speed = max(speed, self.low)
-        motion = Motion(
-            self.system, speed, self.states[last], self.periods[last], self.watch, self.settling
-        )
+        motion = self._motion(speed, self.states[last], self.periods[last])
         verdict = motion.decide()
         if verdict is Ending.CONTACT_LOST:
             self.time += motion.time
@@ -255,18 +262,32 @@ class _Run:
         self._finish()
 
     def progress(self) -> str:
-        if np.isnan(self.jumped):
+        if np.isnan(self.below):
             return f"hunting at {min(self.speeds):.2f} m/s"
-        return f"jump between {self.jumped:.3f} and {min(self.speeds):.3f} m/s"
+        return f"jump between {self.below:.3f} and {self._above():.3f} m/s"
+
+    @property
+    def below(self) -> float:
+        """Highest speed known at which a truck of those that hunt has died out; nan if none."""
+        alive = self._hunting()
+        others = [
+            speed
+            for speed, row in zip(self.speeds, self.trucks, strict=True)
+            if self._alive(row) != alive and speed < self._above()
+        ]
+        known = [*others, *([] if np.isnan(self.jumped) else [self.jumped])]
+        return max(known) if known else np.nan
 
     def result(self) -> Descent:
         names = [self.system.state_names[index] for index in self.system.displacement_indices]
         return Descent(
             speeds=np.array(self.speeds),
             amplitude=NamedColumns(np.array(self.amplitudes), names),
+            trucks=NamedColumns(np.array(self.trucks), list(self.watched)),
             period=np.array(self.periods),
             settled=np.array(self.settled, dtype=bool),
             states=np.array(self.states),
+            stops=dict(self.stops),
             jumped=float(self.jumped),
             time=self.time,
             outcome=self.outcome or Outcome(Ending.UNDECIDED, "the descent goes on"),
@@ -293,29 +314,63 @@ class _Run:
             )
         self.speeds = kept.speeds.tolist()
         self.amplitudes = list(np.asarray(kept.amplitude))
+        self.trucks = np.asarray(kept.trucks).tolist()
         self.periods = kept.period.tolist()
         self.settled = kept.settled.tolist()
         self.states = list(kept.states)
         self.jumped, self.time = kept.jumped, kept.time
         self._finish()
 
-    def _keep(self, speed: float, motion: Motion, settled: bool) -> None:
+    def _motion(self, speed: float, state: Array, period: float) -> WatchedMotion:
+        return WatchedMotion(self.system, speed, state, period, self.watched, self.settling)
+
+    def _keep(self, speed: float, motion: WatchedMotion, settled: bool) -> None:
         self.speeds.append(speed)
         self.amplitudes.append(motion.amplitudes)
+        sizes = motion.truck_amplitudes()
+        self.trucks.append([sizes[name] if motion.hunting[name] else 0.0 for name in self.watched])
         self.periods.append(motion.period)
         self.settled.append(settled)
         self.states.append(motion.state)
         self.time += motion.time
 
+    def _alive(self, row: list[float]) -> frozenset[str]:
+        return frozenset(
+            name for name, amplitude in zip(self.watched, row, strict=True) if amplitude > 0.0
+        )
+
+    def _hunting(self) -> frozenset[str]:
+        """Trucks that hunt and have not been found to stop yet."""
+        return self._alive(self.trucks[0]) - frozenset(self.stops)
+
+    def _last(self, alive: frozenset[str]) -> int:
+        """The run at the lowest speed at which these trucks hunt."""
+        runs = [k for k, row in enumerate(self.trucks) if alive <= self._alive(row)]
+        return min(runs, key=lambda k: self.speeds[k])
+
+    def _above(self) -> float:
+        return self.speeds[self._last(self._hunting())]
+
     def _finish(self) -> None:
-        lowest = min(self.speeds)
-        if np.isnan(self.jumped):
-            if lowest <= self.low:
-                self.outcome = Outcome(Ending.STILL_HUNTING, f"{self.low:g} m/s")
-        elif lowest - self.jumped <= self.tolerance * (1.0 + 1e-9):
-            self.outcome = Outcome(
-                Ending.JUMP_FOUND, f"between {self.jumped:.4f} and {lowest:.4f} m/s"
-            )
+        """Note the trucks that are found to stop, and the end."""
+        while True:
+            above, below = self._above(), self.below
+            if np.isnan(below):
+                if above <= self.low:
+                    self.outcome = Outcome(Ending.STILL_HUNTING, f"{self.low:g} m/s")
+                return
+            if above - below > self.tolerance * (1.0 + 1e-9):
+                return
+            left = frozenset[str]()
+            if below in self.speeds:
+                left = self._alive(self.trucks[self.speeds.index(below)]) & self._hunting()
+            for name in self._hunting() - left:
+                self.stops[name] = (below, above)
+            if not left:
+                self.outcome = Outcome(
+                    Ending.JUMP_FOUND, f"between {below:.4f} and {above:.4f} m/s"
+                )
+                return
 
 
 def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:

@@ -12,7 +12,7 @@ Speeds in m/s; disturbances in the unit of the disturbed state.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -25,12 +25,8 @@ from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
-from exudyn_wheelset.stability.hunting.settling import (
-    Motion,
-    Settling,
-    typical_period,
-    watched_index,
-)
+from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
+from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 KIND = "disturbance runs"
@@ -139,7 +135,7 @@ def critical_disturbance(
             f"{tolerance:g} between 0 and 1"
         )
     settling = settling or Settling(block=3)
-    watched = watched_index(system, watch)
+    watched = watched_trucks(system, watch)
     label = _label(system, direction)
     rows: list[tuple[float, float, float, float]] = []
     runs, time, outcome = 0, 0.0, Outcome(Ending.FINISHED)
@@ -153,7 +149,7 @@ def critical_disturbance(
     table = np.array(rows).reshape(-1, 4)
     settings = {
         **asdict(settling),
-        "watch": system.state_names[watched],
+        "watch": [system.state_names[index] for index in watched.values()],
         "smallest": smallest,
         "largest": largest,
         "bisection_tolerance": tolerance,
@@ -177,13 +173,14 @@ class _Search:
         system: DynamicSystem,
         speed: float,
         direction: Any,
-        watched: int,
+        watched: Mapping[str, int],
         settling: Settling,
     ) -> None:
         self.system, self.speed = system, speed
         self.watched, self.settling = watched, settling
         self.period = typical_period(system, speed)
-        self.rest, self.direction = _disturbance(system, speed, direction, watched)
+        first = next(iter(watched.values()))
+        self.rest, self.direction = _disturbance(system, speed, direction, first)
         self.runs, self.time = 0, 0.0
 
     def bisect(
@@ -215,7 +212,7 @@ class _Search:
     def run(self, amplitude: float) -> tuple[Fate, list[float]]:
         """What becomes of one disturbance, and the amplitudes of the watched motion by blocks."""
         self.runs += 1
-        motion = Motion(
+        motion = WatchedMotion(
             self.system,
             self.speed,
             self.rest + amplitude * self.direction,

@@ -30,8 +30,9 @@ from exudyn_wheelset.stability.hunting.continuation import (
 )
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import Orbit
-from exudyn_wheelset.stability.hunting.settling import orbit_near, watched_index
+from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of_orbit
+from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 

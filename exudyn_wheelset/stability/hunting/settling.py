@@ -1,36 +1,40 @@
-"""When has a simulated motion settled to a limit cycle, and when is it dying out?
+"""When has a simulated motion settled to hunting, and when is it dying out?
 
-One displacement is watched. Each passage through its middle, upward, begins a cycle; the cycle's
-amplitude is half of the distance from its lowest to its highest peak. Cycles are averaged in
-blocks, and three block means A1, A2, A3 decide. If their differences shrink by the ratio
+A displacement is watched for each truck. Each passage through its middle, upward, begins a cycle;
+the cycle's amplitude is half of the distance from its lowest to its highest peak. Cycles are
+averaged in blocks, and block means A1, A2, A3 decide. If their differences shrink by the ratio
 r = (A3 - A2)/(A2 - A1), the geometric series puts the rest of the way at (A3 - A2) r/(1 - r):
 
-- settled     if that rest is below `tolerance` A3 and the last step is small too;
+- settled     if that rest is below `tolerance` A3 and the last step is small too, or if the means
+              go up and down (trucks that hunt at different frequencies beat) and neither their
+              average nor their range over BEAT blocks differs from that of the BEAT blocks before;
 - dying out   if A3 is below `rest` (and a fifth of where it began), if log A falls steadily and A
               is half of its largest, or if log A falls ever faster over eight blocks;
 - undecided   otherwise, e.g. in the slow passage past a fold, where r is about 1.
 
-Amplitudes in m or rad, times in s.
+The vehicle has settled when every truck has settled or died out, one of them hunting, and it has
+died out when all trucks have. Amplitudes in m or rad, times in s.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending
-from exudyn_wheelset.stability.hunting.collocation import Collocation
-from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
-from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
-from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 SAMPLES = 64
 TREND = 8
+# Blocks over which a beating amplitude is averaged, and what its averages and ranges may differ by.
+BEAT = 10
+BEAT_MEAN, BEAT_RANGE = 0.01, 0.2
+# A truck below the amplitude of rest and this share of another's does not hunt by itself.
+SHAKEN = 0.1
 
 
 @dataclass(frozen=True)
@@ -59,13 +63,15 @@ class Settling:
             )
 
 
-class Motion:
+class WatchedMotion:
     """A motion that is simulated on until it is decided.
 
     state        (n,) at the end of what was simulated
     time         simulated so far [s]
     period       of the last cycles [s]
-    means        amplitude of each block [m or rad]
+    means        amplitude of each block [m or rad] of the truck that moves most
+    by_truck     amplitude of each block [m or rad] by truck
+    hunting      whether each truck hunts, once decided
     amplitudes   half of peak to peak of all displacements over the last block (d,)
     """
 
@@ -75,20 +81,26 @@ class Motion:
         speed: float,
         state: Array,
         period: float,
-        watch: int,
+        watched: Mapping[str, int],
         settling: Settling,
     ) -> None:
         self.system = system
         self.speed = speed
         self.state = np.array(state, dtype=float)
         self.period = period
-        self.watch = watch
+        self.watched = dict(watched)
         self.settling = settling
         self.time = 0.0
         self.cycles = 0
-        self.means: list[float] = []
+        self.by_truck: dict[str, list[float]] = {name: [] for name in watched}
+        self.hunting: dict[str, bool] = dict.fromkeys(watched, True)
         self.amplitudes = np.zeros(len(system.displacement_indices))
         self.failure = ""
+
+    @property
+    def means(self) -> list[float]:
+        """Amplitude of each block of the truck that moves most in the last one."""
+        return max(self.by_truck.values(), key=lambda means: means[-1] if means else 0.0)
 
     def advance(self) -> Ending:
         """Simulate one block and judge."""
@@ -108,13 +120,18 @@ class Motion:
         self.cycles += settling.block
         moved = states[:, list(self.system.displacement_indices)]
         self.amplitudes = 0.5 * (moved.max(axis=0) - moved.min(axis=0))
-        amplitudes, period = cycle_amplitudes(times, states[:, self.watch])
-        if len(amplitudes) == 0:
-            signal = states[:, self.watch]
-            amplitudes = np.array([0.5 * (signal.max() - signal.min())])
-        elif np.isfinite(period):
-            self.period = float(np.clip(period, 0.5 * self.period, 2.0 * self.period))
-        self.means.append(float(np.mean(amplitudes)))
+        largest = 0.0
+        for name, index in self.watched.items():
+            signal = states[:, index]
+            amplitudes, period = cycle_amplitudes(times, signal)
+            if not len(amplitudes):
+                amplitudes = np.array([0.5 * (signal.max() - signal.min())])
+            self.by_truck[name].append(float(np.mean(amplitudes)))
+            if self.by_truck[name][-1] > largest and np.isfinite(period):
+                largest = self.by_truck[name][-1]
+                following = float(np.clip(period, 0.5 * self.period, 2.0 * self.period))
+        if largest > 0.0:
+            self.period = following
         return self._judge()
 
     def decide(self) -> Ending:
@@ -124,60 +141,79 @@ class Motion:
             if verdict is not Ending.UNDECIDED or self.cycles >= self.settling.cycles:
                 return verdict
 
+    def truck_amplitudes(self) -> dict[str, float]:
+        """Mean amplitude [m or rad] of each truck, over the beat if it beats."""
+        found = {}
+        for name, means in self.by_truck.items():
+            late = means[-BEAT:] if _beats(means) else means[-1:]
+            found[name] = float(np.mean(late))
+        return found
+
     def _judge(self) -> Ending:
-        settling = self.settling
-        # A motion that began smaller than the threshold of rest is measured by its beginning.
-        rest = settling.rest * self.system.scales[self.watch]
-        if self.means[-1] < min(rest, 0.2 * self.means[0]):
+        verdicts = {}
+        largest = self.means[-1]
+        for name, means in self.by_truck.items():
+            rest = self.settling.rest * self.system.scales[self.watched[name]]
+            verdicts[name] = _judge(means, rest, self.settling.tolerance)
+            # A truck that another one shakes a little does not hunt.
+            shaken = means[-1] < min(rest, SHAKEN * largest)
+            self.hunting[name] = verdicts[name] is not Ending.DIED_OUT and not shaken
+        if not any(self.hunting.values()):
             return Ending.DIED_OUT
-        if len(self.means) < 4:
+        if any(
+            verdict is Ending.UNDECIDED and self.hunting[name] for name, verdict in verdicts.items()
+        ):
             return Ending.UNDECIDED
-        first, second, third, fourth = self.means[-4:]
-        steps = second - first, third - second, fourth - third
-        allowed = settling.tolerance * fourth
-        ratios = [abs(b) / max(abs(a), 1e-3 * allowed) for a, b in pairwise(steps)]
-        ratio = max(ratios)
-        if ratio < 0.98 and abs(steps[2]) * max(1.0, ratio / (1.0 - ratio)) < allowed:
-            return Ending.SETTLED
-        if max(abs(step) for step in steps) < 0.03 * allowed:
-            return Ending.SETTLED
-        logs = np.diff(np.log(self.means[-4:]))
-        steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
-        if (steady and fourth < 0.5 * max(self.means)) or self._falls_away():
-            return Ending.DIED_OUT
+        return Ending.SETTLED
+
+
+def _judge(means: list[float], rest: float, tolerance: float) -> Ending:
+    """What the block means of one truck say; rest: the amplitude that counts as none."""
+    # A motion that began smaller than the threshold of rest is measured by its beginning.
+    if means[-1] < min(rest, 0.2 * means[0]):
+        return Ending.DIED_OUT
+    if len(means) < 4:
         return Ending.UNDECIDED
+    first, second, third, fourth = means[-4:]
+    steps = second - first, third - second, fourth - third
+    allowed = tolerance * fourth
+    ratios = [abs(b) / max(abs(a), 1e-3 * allowed) for a, b in pairwise(steps)]
+    ratio = max(ratios)
+    if ratio < 0.98 and abs(steps[2]) * max(1.0, ratio / (1.0 - ratio)) < allowed:
+        return Ending.SETTLED
+    if max(abs(step) for step in steps) < 0.03 * allowed or _beats(means):
+        return Ending.SETTLED
+    logs = np.diff(np.log(means[-4:]))
+    steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
+    if (steady and fourth < 0.5 * max(means)) or _falls_away(means):
+        return Ending.DIED_OUT
+    return Ending.UNDECIDED
 
-    def _falls_away(self) -> bool:
-        """Whether the amplitude has fallen over TREND blocks, the faster the lower it is.
 
-        That is how a motion leaves an unstable limit cycle, or the place where a fold has been;
-        on the way down to a stable one the fall slows down.
-        """
-        if len(self.means) < TREND + 1:
-            return False
-        logs = np.diff(np.log(self.means[-TREND - 1 :]))
-        first, second = np.sum(logs[: TREND // 2]), np.sum(logs[TREND // 2 :])
-        return bool(np.all(logs < 0.0) and second < 1.1 * first and first + second < -0.01)
+def _beats(means: list[float]) -> bool:
+    """Whether the amplitude goes up and down about a level that stays."""
+    if len(means) < 2 * BEAT:
+        return False
+    before, after = np.array(means[-2 * BEAT : -BEAT]), np.array(means[-BEAT:])
+    steps = np.diff(means[-2 * BEAT :])
+    level = float(np.mean(after))
+    turns = np.count_nonzero(steps[:-1] * steps[1:] < 0.0)
+    same_level = abs(level - float(np.mean(before))) < BEAT_MEAN * level
+    ranges = float(np.ptp(before)), float(np.ptp(after))
+    return bool(turns >= 2 and same_level and abs(ranges[1] - ranges[0]) < BEAT_RANGE * max(ranges))
 
 
-def watched_index(system: DynamicSystem, watch: str | int | None = None) -> int:
-    """State whose peaks are watched: by name or index; else the first lateral displacement.
+def _falls_away(means: list[float]) -> bool:
+    """Whether the amplitude has fallen over TREND blocks, the faster the lower it is.
 
-    That is the first wheelset's where the system knows its wheelsets. Elsewhere lateral means a
-    name that begins with y (after the body's name and a colon); without one it is the first
-    displacement.
+    That is how a motion leaves an unstable limit cycle, or the place where a fold has been; on the
+    way down to a stable one the fall slows down.
     """
-    if isinstance(watch, str):
-        return column_index(system.state_names, watch)
-    if watch is not None:
-        return int(watch)
-    if system.lateral_indices:
-        return system.lateral_indices[0]
-    for index in system.displacement_indices:
-        name = system.state_names[index].split(": ")[-1].split(" [")[0]
-        if name == "y" or name.startswith("y_"):
-            return index
-    return system.displacement_indices[0]
+    if len(means) < TREND + 1:
+        return False
+    logs = np.diff(np.log(means[-TREND - 1 :]))
+    first, second = np.sum(logs[: TREND // 2]), np.sum(logs[TREND // 2 :])
+    return bool(np.all(logs < 0.0) and second < 1.1 * first and first + second < -0.01)
 
 
 def cycle_amplitudes(times: Array, signal: Array) -> tuple[Array, float]:
@@ -198,59 +234,6 @@ def cycle_amplitudes(times: Array, signal: Array) -> tuple[Array, float]:
     fraction = (middle - signal[upward]) / (signal[upward + 1] - signal[upward])
     passages = times[upward] + fraction * (times[upward + 1] - times[upward])
     return np.array(amplitudes), float((passages[-1] - passages[0]) / (len(passages) - 1))
-
-
-def orbit_near(
-    system: DynamicSystem,
-    state: Array,
-    speed: float,
-    period: float | None = None,
-    watch: str | int | None = None,
-    settling: Settling | None = None,
-    intervals: int = INTERVALS,
-    degree: int = DEGREE,
-) -> Orbit:
-    """The limit cycle that the motion from a state (n,) settles to, to Newton's accuracy.
-
-    `period` [s] is a rough guess, taken from the least damped mode if left out. Raises
-    AnalysisError if the motion dies out or leaves the model, or if Newton does not converge.
-    """
-    index = watched_index(system, watch)
-    period = period or typical_period(system, speed)
-    motion = Motion(system, speed, state, period, index, settling or Settling())
-    verdict = motion.decide()
-    if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
-        raise AnalysisError(
-            f"no limit cycle at {speed:g} m/s from this state: {verdict.sentence} after "
-            f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; start from "
-            "a larger disturbance or another speed"
-        )
-    times = np.linspace(0.0, 2.2 * motion.period, 1 + round(2.2 * 400))
-    states = system.simulate(motion.state, speed, times)
-    signal = states[:, index]
-    middle = 0.5 * (signal.max() + signal.min())
-    start = int(np.flatnonzero((signal[:-1] <= middle) & (signal[1:] > middle))[0])
-    # The period is where the motion comes closest to a state on the cycle.
-    apart = np.linalg.norm((states[start:] - states[start]) / system.scales, axis=1)
-    low, high = np.searchsorted(times, times[start] + np.array([0.7, 1.3]) * motion.period) - start
-    back = low + int(np.argmin(apart[low:high]))
-    count = intervals * degree
-    cycle = system.simulate(
-        states[start], speed, np.linspace(0.0, times[start + back] - times[start], count + 1)
-    )
-    length = times[start + back] - times[start]
-    guess = orbit_from_samples(cycle, length, speed, intervals, degree)
-    equations = Collocation(system, length, max(1.0, abs(speed)))
-    row = speed_row(guess, len(system.scales))
-    return solve_orbit(equations, guess, row, tolerance=1e-8, iterations=40).orbit
-
-
-def typical_period(system: DynamicSystem, speed: float) -> float:
-    """Period [s] of the least damped hunting mode about the equilibrium at a speed [m/s].
-
-    Of the least damped oscillation where no mode hunts. Raises AnalysisError if nothing oscillates.
-    """
-    return 2.0 * np.pi / abs(hunting_mode(linearised(system, speed))[0].imag)
 
 
 def _peak(values: Array) -> float:
