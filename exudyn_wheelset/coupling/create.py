@@ -21,7 +21,6 @@ from exudyn.utilities import (
 
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check_contact_names
-from exudyn_wheelset.contact.layout import RESULT
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.registration import (
@@ -31,23 +30,10 @@ from exudyn_wheelset.coupling.registration import (
     register_wheelset,
     unused_name,
 )
+from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES, wheel_values
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
 
-SENSOR_VALUES = (
-    "normal_force",
-    "fx",
-    "fy",
-    "creep_x",
-    "creep_y",
-    "spin",
-    "wheel_y",
-    "rail_y",
-    "angle",
-    "radius",
-    "penetration",
-    "patches",
-)
-_WEIGHTED_VALUES = SENSOR_VALUES[3:-1]
+SENSOR_VALUES = tuple(name for name, _ in WHEEL_VALUES)
 
 
 def create_wheelset(
@@ -232,22 +218,12 @@ def _rest_height(wheelset: Wheelset, track: Track) -> float:
 
 
 def _sensor(contact: WheelRailContact, hand: int) -> Any:
-    """Sensor function of one wheel: SENSOR_VALUES, forces summed over patches, rest weighted."""
+    """Sensor function of one wheel: SENSOR_VALUES."""
+    row = np.empty(len(SENSOR_VALUES))
 
     def values(mbs: Any, t: float, numbers: Any, factors: Any, configuration: Any) -> list[float]:
-        result = contact.evaluate(mbs, configuration).view(RESULT)[0]
-        count = int(result["count"][hand])
-        patches = result["patches"][hand, :count]
-        force = patches["normal_force"]
-        total = float(force.sum())
-        weights = force / total if total > 0.0 else force
-        return [
-            total,
-            float(patches["fx"].sum()),
-            float(patches["fy"].sum()),
-            *(float(weights @ patches[name]) for name in _WEIGHTED_VALUES),
-            float(count),
-        ]
+        wheel_values(contact.evaluate(mbs, configuration), hand, row)
+        return row.tolist()
 
     return values
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.forces import wheelset_forces
-from exudyn_wheelset.contact.layout import RESULT
+from exudyn_wheelset.coupling.wheel_forces import wheel_force
 from exudyn_wheelset.errors import WheelsetError
 
 # Rates [m/s] for the differences: small against a creep of 1e-4 at walking speed, large against
@@ -59,15 +59,8 @@ class RailElasticity:
 @compiled
 def side_forces(result, forces):
     """Fill forces (4): lateral and vertical force [N] on the left, then on the right wheel."""
-    record = result.view(RESULT)[0]
     for hand in range(2):
-        forces[2 * hand] = 0.0
-        forces[2 * hand + 1] = 0.0
-        for k in range(record.count[hand]):
-            patch = record.patches[hand, k]
-            ny, nz = patch.normal[1], patch.normal[2]
-            forces[2 * hand] += nz * patch.fy + ny * patch.normal_force
-            forces[2 * hand + 1] += nz * patch.normal_force - ny * patch.fy
+        forces[2 * hand], forces[2 * hand + 1] = wheel_force(result, hand)
 
 
 @compiled

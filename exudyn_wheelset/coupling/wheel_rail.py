@@ -36,6 +36,7 @@ from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
 from exudyn_wheelset.coupling.addresses import address_of, integers_at, numbers_at
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity, elastic_forces
 from exudyn_wheelset.coupling.guidance import Guidance, guidance
+from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES, wheel_values
 
 _CURRENT = exu.ConfigurationType.Current
 Irregularity = Callable[[float], Any]
@@ -113,6 +114,22 @@ def body_wrench(q, v, first, table, state, part):
             wheelset_forces(table, axle, velocity, motion, parameters, result)
     base = 3 * part
     return result[base], result[base + 1], result[base + 2]
+
+
+@compiled
+def wheel_history(coordinates, velocities, first, table, state, motions, shifts, values):
+    """Fill values (m, 2, 14) of both wheels at m states, in the order of WHEEL_VALUES.
+
+    coordinates, velocities (m, nq) of the system; motions (m, 8) and shifts (m, 4) of the rails.
+    """
+    memory, motion, shift = state[_MEMORY], state[_RAIL_MOTION], state[_SHIFTS]
+    for row in range(len(coordinates)):
+        memory[0] = np.nan
+        motion[:] = motions[row]
+        shift[:] = shifts[row]
+        body_wrench(coordinates[row], velocities[row], first, table, state, 0)
+        for hand in range(2):
+            wheel_values(state[_RESULT], hand, values[row, hand])
 
 
 @compiled
@@ -305,6 +322,28 @@ class WheelRailContact:
             0,
         )
         return state[_RESULT]
+
+    def history(
+        self, mbs: Any, times: np.ndarray, coordinates: np.ndarray, velocities: np.ndarray,
+        first_order: np.ndarray,
+    ) -> np.ndarray:  # fmt: skip
+        """Values (m, 2, 14) of the left and the right wheel at m states, as WHEEL_VALUES says.
+
+        times (m,) [s]; coordinates, velocities (m, nq), first_order (m, n1) of the system.
+        """
+        self.place(mbs)
+        state = self._state.copy()
+        motions, shifts = np.zeros((len(times), 8)), np.zeros((len(times), 4))
+        if self.irregularity is not None:
+            stations = self.reference[0] + coordinates[:, self.first] + self.rail_speed * times
+            motions[:] = [self.irregularity(station) for station in stations]
+        if self.elasticity is not None:
+            shifts[:] = first_order[:, self._rail_place]
+        values = np.empty((len(times), 2, len(WHEEL_VALUES)))
+        wheel_history(
+            coordinates, velocities, self.first, self.table, state, motions, shifts, values
+        )
+        return values
 
     def elastic_energy(self, mbs: Any) -> float:
         """Energy [J] stored in all patches at the current state."""
