@@ -20,11 +20,14 @@ WHEELSET = Wheelset(mass=1500.0, inertia=(900.0, 100.0, 900.0), radius=0.46, whe
 TRACK = Track("UIC60")
 LOAD = 100e3
 SPEED = 10.0
+# A system dies with its container.
+CONTAINERS = []
 
 
 def build(lateral=0.0, roll_moment=0.0, wheelset=WHEELSET, yaw=0.0, push_rate=0.0, **options):
     """A loaded wheelset pushed to the left, its yaw held by strong springs to the moving frame."""
     container = exu.SystemContainer()
+    CONTAINERS.append(container)
     mbs = container.AddSystem()
     items = create_wheelset(
         mbs, wheelset, TRACK, speed=SPEED, moving_frame=True, show=False, sensors=False, yaw=yaw,

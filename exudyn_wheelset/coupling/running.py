@@ -74,7 +74,7 @@ class _Overseer:
         self.next_look = start + CHECK_INTERVAL
 
     def __call__(self, mbs: Any, time: float) -> bool:
-        if self.before and not self.before(mbs, time):
+        if self.before is not None and not self.before(mbs, time):
             return False
         if time < self.next_look:
             return True
@@ -111,8 +111,9 @@ def run_solver(
         unit="s",
         bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
     )
-    before = mbs.GetPreStepUserFunction()
-    overseer = _Overseer(start, end, contacts, bar, before)
+    before = mbs.GetPreStepUserFunction(asDict=True)
+    theirs = before["function"] if isinstance(before, dict) else before or None
+    overseer = _Overseer(start, end, contacts, bar, theirs)
     handler = None
     if threading.current_thread() is threading.main_thread():
         handler = signal.signal(signal.SIGINT, lambda *_: overseer.stopped.set())
@@ -129,7 +130,7 @@ def run_solver(
             if outcome.ending is Ending.FINISHED:
                 bar.update(end - start - bar.n)
     finally:
-        mbs.SetPreStepUserFunction(before)
+        mbs.SetPreStepUserFunction(theirs or 0)
         if handler is not None:
             signal.signal(signal.SIGINT, handler)
     return outcome

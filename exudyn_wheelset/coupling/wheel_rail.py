@@ -333,13 +333,13 @@ class WheelRailContact:
         """
         self.place(mbs)
         state = self._state.copy()
-        motions, shifts = np.zeros((len(times), 8)), np.zeros((len(times), 4))
+        motions, shifts = np.zeros((len(coordinates), 8)), np.zeros((len(coordinates), 4))
         if self.irregularity is not None:
             stations = self.reference[0] + coordinates[:, self.first] + self.rail_speed * times
             motions[:] = [self.irregularity(station) for station in stations]
         if self.elasticity is not None:
             shifts[:] = first_order[:, self._rail_place]
-        values = np.empty((len(times), 2, len(WHEEL_VALUES)))
+        values = np.empty((len(coordinates), 2, len(WHEEL_VALUES)))
         wheel_history(
             coordinates, velocities, self.first, self.table, state, motions, shifts, values
         )

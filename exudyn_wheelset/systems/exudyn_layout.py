@@ -15,7 +15,12 @@ import numpy as np
 
 from exudyn_wheelset.coupling.registration import named_states
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.systems.reduction import CYCLIC, ROTATION
+from exudyn_wheelset.systems.reduction import (
+    CYCLIC,
+    ROTATION,
+    expand_state,
+    reduce_coordinates,
+)
 
 Array = np.ndarray
 
@@ -50,15 +55,50 @@ class Layout:
     names: tuple[str, ...]
     scales: tuple[float, ...]
 
-    def wheelset_states(self, indices: Sequence[int]) -> tuple[int, int]:
-        """States of lateral displacement and yaw of a spinning body with these coordinates.
+    wheelsets: Mapping[str, float]
 
-        The lateral displacement is CYCLIC where it was declared so.
+    def wheelset_states(self, indices: Sequence[int]) -> tuple[int, int, int, int]:
+        """States of y, z, yaw and roll of a spinning body with these coordinates.
+
+        Displacements are CYCLIC where they were declared so.
         """
         row = int(np.flatnonzero(self.rotations[:, 0] == indices[3])[0])
-        return int(self.position_of[indices[1]]), int(self.rotations[row, 1])
+        yaw = int(self.rotations[row, 1])
+        return int(self.position_of[indices[1]]), int(self.position_of[indices[2]]), yaw, yaw + 1
 
-    wheelsets: Mapping[str, float]
+    def expand(self, state: Array) -> tuple[Array, Array, Array]:
+        """Coordinates, velocities (nq,), (nq,) and first-order coordinates (n1,) of a state (n,).
+
+        Cyclic coordinates and spin angles come out as zero.
+        """
+        size = len(self.position_of)
+        coordinates, velocities = np.zeros(size), np.zeros(size)
+        first_order = np.zeros(len(self.names) - self.positions - size)
+        expand_state(
+            np.ascontiguousarray(state, dtype=float),
+            self.position_of,
+            self.rotations,
+            self.reference,
+            coordinates,
+            velocities,
+            first_order,
+        )
+        return coordinates, velocities, first_order
+
+    def reduce(self, coordinates: Array, velocities: Array, first_order: Array) -> Array:
+        """States (m, n) of m coordinates, velocities (m, nq) and first-order ones (m, n1)."""
+        states = np.zeros((len(coordinates), len(self.names)))
+        for row, state in enumerate(states):
+            reduce_coordinates(
+                np.ascontiguousarray(coordinates[row], dtype=float),
+                np.ascontiguousarray(velocities[row], dtype=float),
+                np.ascontiguousarray(first_order[row], dtype=float),
+                self.position_of,
+                self.rotations,
+                self.reference,
+                state,
+            )
+        return states
 
 
 def lay_out(

@@ -7,6 +7,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from exudyn.utilities import SensorNode
+from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import copied_settings, run_solver
@@ -26,6 +27,7 @@ class Runner:
 
     solver_type, step [s]: those of the settings where they are given, else RK44 and 5e-4 s.
     nodes: all but Exudyn's ground. Sensors are added to `mbs`, which is assembled by the caller.
+    memory: data coordinates may be there; they are not recorded.
     Raises AnalysisError, which begins with `name`, for nodes of data coordinates and for a solver
     or a step that does not exist.
     """
@@ -37,6 +39,7 @@ class Runner:
         settings: exu.SimulationSettings | None,
         solver_type: exu.DynamicSolverType | str | None,
         step: float | None,
+        memory: bool = False,
     ) -> None:
         self._mbs = mbs
         self._contacts = [items.contact for items in wheelsets_of(mbs)]
@@ -57,7 +60,7 @@ class Runner:
                 raise AnalysisError(f"{name}: no solver type {solver_type!r}; known are {known}")
             solver_type = exu.DynamicSolverType.__members__[solver_type]
         self.solver_type = solver_type
-        self._sensors = _state_sensors(mbs, name)
+        self._sensors = _state_sensors(mbs, name, memory)
 
     @property
     def nodes(self) -> list[int]:
@@ -66,20 +69,19 @@ class Runner:
 
     def run(
         self,
-        coordinates: Array,
-        velocities: Array,
-        first_order: Array,
+        start: tuple[Array, Array, Array],
         steps: int,
         duration: float,
         progress: bool = False,
         description: str = "simulating",
     ) -> Outcome:
-        """Run from coordinates and velocities (nq,), (nq,) and first-order ones (n1,).
+        """Run from coordinates, velocities (nq,), (nq,) and first-order ones (n1,).
 
         Returns how it ended, FINISHED after the whole duration [s]. The system's initial values are
         left as they were.
         """
         data, initial = self._mbs.systemData, exu.ConfigurationType.Initial
+        coordinates, velocities, first_order = start
         kept = [
             data.GetODE2Coordinates(initial),
             data.GetODE2Coordinates_t(initial),
@@ -107,13 +109,16 @@ class Runner:
                 data.SetODE1Coordinates(kept[2], initial)
             data.SetTime(0.0)
 
-    def recorded(self) -> tuple[Array, Array, Array]:
-        """Coordinates, velocities (m, nq) and first-order ones (m, n1) of the last run's steps."""
+    def recorded(self) -> tuple[Array, tuple[Array, Array, Array]]:
+        """Times (m,) of the last run's steps; coordinates, velocities (m, nq), first order (m, n1).
+
+        Adaptive solvers step where they please.
+        """
         mbs, data = self._mbs, self._mbs.systemData
-        rows = len(mbs.GetSensorStoredData(self._sensors[0][1]))
-        coordinates = np.zeros((rows, data.ODE2Size()))
-        velocities = np.zeros((rows, data.ODE2Size()))
-        first_order = np.zeros((rows, data.ODE1Size()))
+        times = mbs.GetSensorStoredData(self._sensors[0][1])[:, 0]
+        coordinates = np.zeros((len(times), data.ODE2Size()))
+        velocities = np.zeros((len(times), data.ODE2Size()))
+        first_order = np.zeros((len(times), data.ODE1Size()))
         for node, positions, rates in self._sensors:
             stored = mbs.GetSensorStoredData(positions)[:, 1:]
             indices = data.GetNodeLTGODE2(node)
@@ -122,36 +127,64 @@ class Runner:
                 velocities[:, indices] = mbs.GetSensorStoredData(rates)[:, 1:]
             else:
                 first_order[:, data.GetNodeLTGODE1(node)] = stored
-        return coordinates, velocities, first_order
+        return times, (coordinates, velocities, first_order)
 
 
-def _state_sensors(mbs: Any, name: str) -> list[tuple[int, int, int]]:
-    """Add sensors of every node's coordinates and velocities: node, sensor, sensor."""
-    nodes = [mbs.GetNode(node) for node in range(mbs.systemData.NumberOfNodes())]
+def sampled(times: Array, values: Array, wanted: Array) -> Array:
+    """Values (m, k) at rising times (m,), taken at those of the `wanted` times that were reached.
+
+    Steps that meet the wanted times are picked, others interpolated by cubic splines. What is no
+    longer finite ends the motion.
+    """
+    finite = np.isfinite(values).all(axis=1)
+    if not finite.all():
+        end = int(np.argmin(finite))
+        times, values = times[:end], values[:end]
+    if not len(times):
+        return values
+    tolerance = 1e-9 * (wanted[-1] - wanted[0])
+    wanted = wanted[wanted <= times[-1] + tolerance]
+    rows = np.searchsorted(times, wanted - tolerance)
+    if np.all(np.abs(times[rows] - wanted) <= tolerance):
+        return values[rows]
+    return CubicSpline(times, values)(wanted)
+
+
+def _state_sensors(mbs: Any, name: str, memory: bool) -> list[tuple[int, int, int]]:
+    """Sensors of every node's coordinates and velocities: node, sensor, sensor.
+
+    Those of an earlier call are found again.
+    """
+    data = mbs.systemData
+    nodes = [mbs.GetNode(node) for node in range(data.NumberOfNodes())]
     hidden = [node["name"] for node in nodes if node["nodeType"] == "GenericData"]
-    if hidden:
+    if hidden and not memory:
         raise AnalysisError(
             f"{name}: the model has data coordinates (friction or contact memory) in "
             f"{', '.join(hidden)}; their state is hidden from the analysis: leave them out, or "
             "replace them by first-order coordinates (ObjectGenericODE1)"
         )
+    known = {mbs.GetSensor(k)["name"]: k for k in range(data.NumberOfSensors())}
     types = exu.OutputVariableType
     sensors = []
     for number, node in enumerate(nodes):
-        if "Ground" in node["nodeType"]:
+        if "Ground" in node["nodeType"] or node["nodeType"] == "GenericData":
             continue
-        added = [
-            mbs.AddSensor(
-                SensorNode(
-                    nodeNumber=number,
-                    storeInternal=True,
-                    writeToFile=False,
-                    outputVariableType=what,
-                    name=f"state of node {number}: {what.name}",
+        of_node = []
+        for what in (types.Coordinates, types.Coordinates_t):
+            if what == types.Coordinates_t and node["nodeType"] == "GenericODE1":
+                continue
+            label = f"state of node {number}: {what.name}"
+            if label not in known:
+                known[label] = mbs.AddSensor(
+                    SensorNode(
+                        nodeNumber=number,
+                        storeInternal=True,
+                        writeToFile=False,
+                        outputVariableType=what,
+                        name=label,
+                    )
                 )
-            )
-            for what in (types.Coordinates, types.Coordinates_t)
-            if not (what == types.Coordinates_t and node["nodeType"] == "GenericODE1")
-        ]
-        sensors.append((number, added[0], added[-1]))
+            of_node.append(known[label])
+        sensors.append((number, of_node[0], of_node[-1]))
     return sensors

@@ -17,7 +17,6 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import QuietExudyn, copied_settings, failure_words
@@ -26,13 +25,13 @@ from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.exudyn_layout import lay_out
-from exudyn_wheelset.systems.exudyn_running import Runner
+from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_wheelsets import (
     check_speed_is_a_parameter,
     patches_of,
     rolling_radii,
 )
-from exudyn_wheelset.systems.reduction import expand_state, reduce_coordinates, state_rate
+from exudyn_wheelset.systems.reduction import expand_state, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
@@ -100,7 +99,7 @@ class ExudynSystem(DynamicSystem):
         if set_speed is None:
             check_speed_is_a_parameter(name, self.wheelsets)
         self._speed: float | None = None
-        self._runner = Runner(self.mbs, name, settings, solver_type, step)
+        self.runner = Runner(self.mbs, name, settings, solver_type, step)
         # Exudyn evaluates the loads when a solver begins, so that they need some speed by then.
         self._set_speed(mbs, FIRST_SPEED)
         mbs.Assemble()
@@ -110,11 +109,12 @@ class ExudynSystem(DynamicSystem):
         unknown = [items for items in self.wheelsets if items.node not in spinning]
         layout = lay_out(
             mbs,
-            self._runner.nodes,
+            self.runner.nodes,
             {**rolling_radii(unknown), **spinning},
             _as_mapping(cyclic),
             name,
         )
+        self.layout = layout
         self._positions = layout.positions
         self._position_of = layout.position_of
         self._rotations = layout.rotations
@@ -145,8 +145,10 @@ class ExudynSystem(DynamicSystem):
             layout.wheelset_states([int(k) for k in self._data.GetNodeLTGODE2(items.node)])
             for items in self.wheelsets
         ]
-        self.lateral_indices = tuple(lateral for lateral, _ in places if lateral >= 0)
-        self.yaw_indices = tuple(yaw for lateral, yaw in places if lateral >= 0)
+        self.lateral_indices = tuple(place[0] for place in places if place[0] >= 0)
+        self.yaw_indices = tuple(place[2] for place in places if place[0] >= 0)
+        # Lateral and vertical displacement and roll of each wheelset.
+        self.pose_indices = tuple((place[0], place[1], place[3]) for place in places)
         self._check_mass_matrix()
 
     @property
@@ -157,14 +159,14 @@ class ExudynSystem(DynamicSystem):
     @property
     def step(self) -> float:
         """Largest time step of `simulate` [s]."""
-        return self._runner.step
+        return self.runner.step
 
     def derivative(self, state: Array, speed: float) -> Array:
         """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,).
 
         Raises AnalysisError with the words of a user function that gave up.
         """
-        self._use_speed(speed)
+        self.use_speed(speed)
         state = np.ascontiguousarray(state, dtype=float)
         expand_state(
             state,
@@ -205,37 +207,21 @@ class ExudynSystem(DynamicSystem):
         Cyclic coordinates and spin angles come out as zero. Coordinates are measured from the
         reference configuration, as Exudyn's are.
         """
-        coordinates, velocities = np.zeros(self._order2), np.zeros(self._order2)
-        expand_state(
-            np.ascontiguousarray(state, dtype=float),
-            self._position_of,
-            self._rotations,
-            self._reference,
-            coordinates,
-            velocities,
-            np.zeros(self._order1),
-        )
+        coordinates, velocities, _ = self.layout.expand(state)
         return coordinates, velocities
 
     def reduce(
         self, coordinates: Array, velocities: Array, first_order: Array | None = None
     ) -> Array:
         """State (n,) of Exudyn's coordinates and velocities (nq,), (nq,)."""
-        state = np.zeros(len(self.state_names))
-        reduce_coordinates(
-            np.ascontiguousarray(coordinates, dtype=float),
-            np.ascontiguousarray(velocities, dtype=float),
-            np.zeros(self._order1) if first_order is None else np.asarray(first_order, float),
-            self._position_of,
-            self._rotations,
-            self._reference,
-            state,
-        )
-        return state
+        if first_order is None:
+            first_order = np.zeros(self._order1)
+        rows = (np.atleast_2d(values) for values in (coordinates, velocities, first_order))
+        return self.layout.reduce(*rows)[0]
 
     def initial_state(self, speed: float) -> Array:
         """State of the model's initial values, with the steady spin and forward velocities."""
-        self._use_speed(speed)
+        self.use_speed(speed)
         initial = exu.ConfigurationType.Initial
         state = self.reduce(
             self._data.GetODE2Coordinates(initial),
@@ -267,29 +253,19 @@ class ExudynSystem(DynamicSystem):
         times = np.asarray(times, dtype=float)
         if times.ndim != 1 or len(times) < 2 or np.any(np.diff(times) <= 0.0):
             raise AnalysisError(f"{self.name}: times must be at least two and rising")
-        self._use_speed(speed)
+        self.use_speed(speed)
         interval = (times[-1] - times[0]) / (len(times) - 1)
         uniform = bool(np.allclose(np.diff(times), interval, rtol=1e-9))
         if uniform:
-            per_sample = max(1, int(np.ceil(interval / self._runner.step - 1e-9)))
+            per_sample = max(1, int(np.ceil(interval / self.runner.step - 1e-9)))
             steps = per_sample * (len(times) - 1)
         else:
-            steps = int(np.ceil((times[-1] - times[0]) / self._runner.step))
-        state = np.asarray(state, dtype=float)
-        coordinates, velocities = self.expand(state)
-        first_order = state[len(state) - self._order1 :]
+            steps = int(np.ceil((times[-1] - times[0]) / self.runner.step))
         duration = float(times[-1] - times[0])
-        outcome = self._runner.run(coordinates, velocities, first_order, steps, duration)
-        raw = self._stored_states()
-        if uniform:
-            raw = raw[::per_sample]
-            reached = times[: len(raw)]
-            samples = raw
-        else:
-            grid = np.linspace(times[0], times[-1], steps + 1)[: len(raw)]
-            reached = times[times <= grid[-1] + 1e-12] if len(grid) else times[:0]
-            samples = CubicSpline(grid, raw)(reached) if len(grid) > 1 else raw[: len(reached)]
-        finite = int(np.argmin([*np.all(np.isfinite(samples), axis=1), False]))
+        outcome = self.runner.run(self.layout.expand(state), steps, duration)
+        stored, raw = self.runner.recorded()
+        samples = sampled(stored, self.layout.reduce(*raw), times - times[0])
+        finite = len(samples)
         if outcome.ending is Ending.INTERRUPTED:
             raise KeyboardInterrupt(str(outcome))
         if outcome.ending is Ending.FINISHED and finite < len(times):
@@ -297,9 +273,9 @@ class ExudynSystem(DynamicSystem):
         if outcome.ending is not Ending.FINISHED:
             raise SimulationError(
                 f"{self.name}: the motion at {speed:g} m/s ended after "
-                f"{reached[finite - 1] if finite else times[0]:.6g} s: {outcome}",
-                reached[:finite],
-                samples[:finite],
+                f"{times[max(finite - 1, 0)]:.6g} s: {outcome}",
+                times[:finite],
+                samples,
                 outcome,
             )
         return samples
@@ -309,12 +285,12 @@ class ExudynSystem(DynamicSystem):
         return {
             **record,
             "parameters": self.parameters,
-            "solver": str(self._runner.solver_type).split(".")[-1],
-            "step": self._runner.step,
+            "solver": str(self.runner.solver_type).split(".")[-1],
+            "step": self.runner.step,
         }
 
     def _initialise_solver(self) -> None:
-        settings = copied_settings(self._runner.settings)
+        settings = copied_settings(self.runner.settings)
         settings.solution.sensors.active = False
         solver: Any = exu.MainSolverImplicitSecondOrder()
         try:
@@ -377,27 +353,11 @@ class ExudynSystem(DynamicSystem):
                     "with the spin angle and there is no steady run; give it Ix = Iz"
                 )
 
-    def _use_speed(self, speed: float) -> None:
+    def use_speed(self, speed: float) -> None:
+        """Set the forward speed [m/s] in the model."""
         if speed != self._speed:
             self._set_speed(self.mbs, float(speed))
             self._speed = speed
-
-    def _stored_states(self) -> Array:
-        """States (steps + 1, n) of the last run."""
-        coordinates, velocities, first_order = self._runner.recorded()
-        rows = len(coordinates)
-        states = np.empty((rows, len(self.state_names)))
-        for row in range(rows):
-            reduce_coordinates(
-                coordinates[row],
-                velocities[row],
-                first_order[row],
-                self._position_of,
-                self._rotations,
-                self._reference,
-                states[row],
-            )
-        return states
 
 
 def _as_mapping(entries: Sequence[int] | Mapping[int, float]) -> Mapping[int, float]:

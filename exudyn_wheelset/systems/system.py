@@ -244,9 +244,9 @@ def newton_equilibrium(
     )
 
 
-def as_system(vehicle: Any) -> DynamicSystem:
+def as_system(vehicle: Any, **options: Any) -> DynamicSystem:
     """The DynamicSystem of a vehicle: itself, built from its description, or what the method
-    `dynamic_system()` of an object gives.
+    `dynamic_system()` of an object gives. options: of ExudynSystem, for what is built here.
 
     Raises AnalysisError for anything else.
     """
@@ -256,10 +256,10 @@ def as_system(vehicle: Any) -> DynamicSystem:
         # Exudyn is loaded only where a model is built in it.
         from exudyn_wheelset.systems.vehicle_system import vehicle_system
 
-        return vehicle_system(vehicle)
+        return vehicle_system(vehicle, **options)
     maker = getattr(vehicle, "dynamic_system", None)
     if callable(maker):
-        system = maker()
+        system = maker(**options)
         if isinstance(system, DynamicSystem):
             return system
     raise AnalysisError(
