@@ -77,14 +77,18 @@ _PLACES = {
     "with_free_lengths": "vehicles.statics",
 }
 
-__all__ = sorted([*_PLACES, "__version__"])
+_FOLDERS = ("catalogue",)
+
+__all__ = sorted([*_PLACES, *_FOLDERS, "__version__"])
 
 
 def __getattr__(name: str) -> object:
     # Names load on first use: reading a profile need not import Exudyn and the compiler.
-    if name in _PLACES:
-        from importlib import import_module
+    from importlib import import_module
 
+    if name in _FOLDERS:
+        return import_module(f"exudyn_wheelset.{name}")
+    if name in _PLACES:
         value = getattr(import_module(f"exudyn_wheelset.{_PLACES[name]}"), name)
         globals()[name] = value
         return value

@@ -16,52 +16,21 @@ from typing import Any
 import exudyn as exu
 
 from exudyn_wheelset.catalogue import paper_wheelset as paper
+from exudyn_wheelset.catalogue.changes import Changes
 from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie, cooperrider_system
+from exudyn_wheelset.catalogue.cooperrider_bogie_3d import cooperrider_bogie_3d
+from exudyn_wheelset.catalogue.dtu_car import dtu_car
 from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.manchester_coach import manchester_coach
+from exudyn_wheelset.catalogue.three_axle_truck import three_axle_truck
 from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.profiles import Profile, load_profile, shapes
+from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.systems import vehicle_system as systems
 from exudyn_wheelset.systems.system import DynamicSystem
-
-
-@dataclass(frozen=True)
-class Changes:
-    """What may be changed of a vehicle; None leaves the vehicle's own value.
-
-    friction [-]; creep: name of a law; gauge [m] between the rails, which sets the flange
-    clearance; wheel, rail: profile, name or path; conicity [-] of the tread: an AAR wheel of that
-    taper takes the wheel's place; inclination [-] of the rails; gauge_depth [m] below their tops at
-    which the gauge is measured; damping [s/m] of the normal
-    contact, which takes up the energy of flange impacts.
-    """
-
-    friction: float | None = None
-    creep: str | None = None
-    gauge: float | None = None
-    wheel: Profile | str | None = None
-    rail: Profile | str | None = None
-    conicity: float | None = None
-    inclination: float | None = None
-    damping: float | None = None
-    gauge_depth: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.wheel is not None and self.conicity is not None:
-            raise WheelsetError("give a wheel or a conicity, not both")
-        if self.friction is not None and not 0.0 < self.friction <= 1.0:
-            raise WheelsetError(f"friction = {self.friction!r}: give a coefficient from 0 to 1")
-
-    def tread(self, own: str) -> Profile:
-        """The wheel profile to take where the vehicle's own is `own`."""
-        if self.conicity is not None:
-            return shapes.aar_1_20(taper=self.conicity)
-        return load_profile(own if self.wheel is None else self.wheel)
-
-    def given(self, *names: str) -> dict[str, Any]:
-        """Those of `names` that are changed, by name."""
-        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+from exudyn_wheelset.vehicles.description import Vehicle
 
 
 @dataclass(frozen=True)
@@ -70,14 +39,14 @@ class Entry:
 
     description    one line
     searched       speeds [m/s] between which the first Hopf point lies
-    make           the vehicle with changes
-    changeable     what of `Changes` it has
+    make           the vehicle with changes, by keyword where `changeable` is None
+    changeable     what of `Changes` it has; None: all, and what `make` has of its own
     """
 
     description: str
     searched: tuple[float, float]
-    make: Callable[[Changes], Any]
-    changeable: tuple[str, ...]
+    make: Callable[..., Any]
+    changeable: tuple[str, ...] | None = None
 
 
 def vehicle(name: str, **changes: Any) -> Any:
@@ -87,9 +56,11 @@ def vehicle(name: str, **changes: Any) -> Any:
     vehicle does not have.
     """
     known = entry(name)
-    asked = Changes(**changes)
-    for what in asked.given(*_ON_PROFILES):
-        if what not in known.changeable:
+    if known.changeable is None:
+        return known.make(**changes)
+    asked = Changes.of(name, **changes)
+    for what in changes:
+        if getattr(asked, what) is not None and what not in known.changeable:
             raise WheelsetError(
                 f"{name} has no {what} to change; it has {', '.join(known.changeable) or 'none'}"
             )
@@ -104,6 +75,8 @@ def vehicle_system(
     Raises WheelsetError as `vehicle`, and for settings of a vehicle that is not in Exudyn.
     """
     found = vehicle(name, **changes)
+    if isinstance(found, Vehicle):
+        return systems.vehicle_system(found, settings=settings)
     if not isinstance(found, DynamicSystem):
         return found.dynamic_system(settings=settings)
     if settings is not None:
@@ -264,5 +237,25 @@ CATALOGUE: dict[str, Entry] = {
         (15.0, 150.0),
         _truck,
         _ON_PROFILES,
+    ),
+    "dtu_car": Entry(
+        "the DTU passenger car on two of Kaas-Petersen's bogies, S1002 on UIC60 1:40",
+        (15.0, 150.0),
+        dtu_car,
+    ),
+    "manchester_coach": Entry(
+        "vehicle 1 of the Manchester benchmarks, a coach, S1002 on UIC60 1:40",
+        (20.0, 150.0),
+        manchester_coach,
+    ),
+    "cooperrider_bogie_3d": Entry(
+        "Kaas-Petersen's bogie of Cooperrider in three dimensions, cones on UIC60 heads",
+        (20.0, 120.0),
+        cooperrider_bogie_3d,
+    ),
+    "three_axle_truck": Entry(
+        "a truck with three axles below a body that runs straight, S1002 on UIC60 1:40",
+        (20.0, 200.0),
+        three_axle_truck,
     ),
 }

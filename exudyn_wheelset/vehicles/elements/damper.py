@@ -18,7 +18,7 @@ from typing import Any
 
 from exudyn_wheelset.checking import positive
 from exudyn_wheelset.coupling.registration import FirstOrderState
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.vehicles import kernel
 from exudyn_wheelset.vehicles.elements.curve import checked_table, curve_of
 from exudyn_wheelset.vehicles.elements.protocol import (
@@ -32,7 +32,7 @@ from exudyn_wheelset.vehicles.elements.protocol import (
 )
 
 # A stroke of hunting below the flange.
-STROKE = FirstOrderState("damper stroke", "m", 1.0e-3)
+STROKE = FirstOrderState("stroke", "m", 1.0e-3)
 # Longer than any vehicle's motion takes [s].
 _LONGEST_RELAXATION = 10.0
 
@@ -62,6 +62,7 @@ class MaxwellDamper(Element):
                 f"{self.damping:g} N s/m let a force relax in c/k = "
                 f"{self.damping / self.stiffness:g} s (usual are milliseconds, at most "
                 f"{_LONGEST_RELAXATION:g} s): are they exchanged?",
+                WheelsetWarning,
                 stacklevel=3,
             )
 

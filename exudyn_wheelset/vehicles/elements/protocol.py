@@ -30,7 +30,7 @@ import numpy as np
 
 from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.coupling.registration import FirstOrderState
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.vehicles import kernel
 from exudyn_wheelset.vehicles.elements.curve import Curve
 
@@ -154,6 +154,7 @@ def checked_stiffness(what: str, value: Any, unit: str = "N/m") -> float:
         warnings.warn(
             f"{what} = {stiffness:g} {unit} is soft for a railway vehicle (usual are {_SOFT:g} "
             f"{unit} and more); {mend}",
+            WheelsetWarning,
             stacklevel=4,
         )
     return stiffness
