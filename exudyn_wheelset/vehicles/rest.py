@@ -8,7 +8,7 @@ own kernels.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -23,6 +23,8 @@ from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_
 
 Array = np.ndarray
 _NEWTON_STEPS = 40
+# Accelerations [m/s^2, rad/s^2] that are rounding.
+_AT_REST = 1.0e-7
 
 
 @dataclass(frozen=True)
@@ -70,12 +72,23 @@ def find_rest(vehicle: Vehicle) -> Rest:
         if change < 1e-12:
             break
     struts = struts_of(vehicle, centres)
-    if vehicle.preload == "free":
-        return _settle(vehicle, struts, given, centres, sunk, axles)
     pose = np.zeros((len(centres), 6))
-    for k, found in enumerate(axles):
-        pose[k, 1], pose[k, 3] = found.shift, found.roll
-    return Rest(struts, forces, centres, pose, pose, axles)
+    if vehicle.preload == "free":
+        pose = sunk.copy()
+        drawn = Rest(struts, given, centres, pose, np.zeros_like(pose), axles)
+        _place_axles(pose, axles)
+        return _settle(vehicle, drawn)
+    _place_axles(pose, axles)
+    rest = Rest(struts, forces, centres, pose, pose, axles)
+    if np.abs(accelerations(vehicle, rest)).max() < _AT_REST or any(
+        axle.driven for axle in vehicle.wheelsets
+    ):
+        return rest
+    # Unlike wheels or loads: rolling radii differ, so the wheelsets steer until springs hold them.
+    try:
+        return _settle(vehicle, rest)
+    except WheelsetError:
+        return rest
 
 
 def accelerations(vehicle: Vehicle, rest: Rest) -> Array:
@@ -84,6 +97,12 @@ def accelerations(vehicle: Vehicle, rest: Rest) -> Array:
     for k, at_rest in enumerate(rest.axles):
         forces[k] += at_rest.wrench
     return forces / inertias_of(vehicle)
+
+
+def _place_axles(pose: Array, axles: list[AxleRest]) -> None:
+    """Put the wheelsets where they stand into a pose (n, 6)."""
+    for k, found in enumerate(axles):
+        pose[k, 1:] = found.shift, 0.0, found.roll, 0.0, 0.0
 
 
 def _stand(vehicle: Vehicle, axle: Axle, support: Array) -> AxleRest:
@@ -133,22 +152,11 @@ class StaticForces:
         return forces
 
 
-def _settle(
-    vehicle: Vehicle,
-    struts: list[Strut],
-    preloads: Array,
-    centres: Array,
-    sunk: Array,
-    standing: list[AxleRest],
-) -> Rest:
-    """The vehicle of free lengths where it comes to rest, from the linear guess `sunk` (n, 6)."""
-    drawn = np.zeros((len(centres), 6))
-    pose = sunk.copy()
-    radii = []
-    for k, found in enumerate(standing):
-        pose[k, 1:] = found.shift, 0.0, found.roll, 0.0, 0.0
-        radii.append(found.radius)
-    forces_of = StaticForces(vehicle, struts, preloads, centres, drawn)
+def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
+    """The vehicle where it comes to rest, from the guess of `rest`; raises WheelsetError."""
+    centres = rest.centres
+    radii = [found.radius for found in rest.axles]
+    forces_of = StaticForces(vehicle, rest.struts, rest.preloads, centres, rest.drawn)
     inertias = inertias_of(vehicle)
     spins = len(vehicle.wheelsets)
 
@@ -173,7 +181,7 @@ def _settle(
             forces[k] += at_rest.wrench
         return (forces / inertias).ravel()
 
-    unknown = pose.ravel()
+    unknown = rest.pose.ravel()
     steps = np.full(unknown.size, 1e-7)
     residual = left(unknown)
     for _ in range(_NEWTON_STEPS):
@@ -197,4 +205,4 @@ def _settle(
             f"{np.abs(residual).max():.3g} m/s^2; draw it nearer to its place or check the offsets"
         )
     trial, axles = split(unknown)
-    return Rest(struts, preloads, centres, trial, drawn, axles)
+    return replace(rest, pose=trial, axles=axles)
