@@ -36,7 +36,7 @@ from exudyn_wheelset.contact.layout import SIDE, Axle
 REFERENCE = Path(__file__).parents[2] / "tests" / "reference" / "contact_forces_manchester_A22.csv"
 WHEELSET = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
 TRACK = Track(rail="UIC60")
-MODELS = ("hertz", "hertz-local", "virtual-penetration")
+MODELS = ("hertz", "hertz-local", "virtual-penetration", "strips")
 
 
 def curvature() -> None:

@@ -3,28 +3,36 @@
 For each patch, in the triad (x along the track, lateral tangent, normal n from rail into wheel):
 - normal force N = N_Hertz(delta) (1 + damping delta') >= 0, a dissipative term that vanishes with
   the penetration (Hunt and Crossley 1975), delta' = -n.v;
-- creepages from the exact velocity of the wheel's particle at the contact point P,
-  v = v_C + omega x (P - C) minus the rail's: creep_x = v_x/V, creep_y = v.t/V, t = n x e_x, and
-  spin = omega.n/V (Petersen and Hoffmann 2003; no small angles);
+- creepages from the exact velocity of the wheel's particle at the contact point (creepage.py);
 - creep force by the chosen law; wrench about the wheelset's centre in the track frame.
-V is the forward speed over the rails. Peak pressure is 3 N/(2 pi a b), Hertz's; a share of a merged
-patch has its share of the ellipse, so that this is the merged patch's.
+V is the forward speed over the rails.
 
-Patches and their elastic normal forces come from patches.py.
+Patches and their elastic normal forces come from patches.py. With strips, FASTSIM runs over them
+(strip_creep.py); the other laws take the ellipse with their load and second moments.
 
 The right side is computed as the left side of the mirrored wheelset and mirrored back, so mirror
 symmetry holds to rounding. Records and named tuples: layout.py.
 """
 
-import math
-
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.contact.layout import PARAMETERS, RESULT, Axle, Creepage, side_of
+from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
+from exudyn_wheelset.contact.layout import (
+    PARAMETERS,
+    RESULT,
+    STRIPS,
+    Axle,
+    Creepage,
+    Slip,
+    Traction,
+    side_of,
+)
 from exudyn_wheelset.contact.patches import side_patches
-from exudyn_wheelset.creep import creep_kernel
+from exudyn_wheelset.contact.strip_creep import strip_traction
+from exudyn_wheelset.creep import CREEP_LAWS, creep_kernel
 
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1
+_FASTSIM = CREEP_LAWS["fastsim"].number
 
 
 @compiled(inline="always")
@@ -85,6 +93,7 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     forward = velocity.x + options.rail_speed
     speed = max(abs(forward), LEAST_SPEED)
     height = side_of(table, 0).radius + axle.z
+    over_strips = options.normal == STRIPS and int(options.law) == _FASTSIM
     force_x = force_y = force_z = moment_x = moment_y = moment_z = 0.0
     for hand in range(2):
         mirror = 1.0 - 2.0 * hand
@@ -95,51 +104,47 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
         )  # fmt: skip
         count = side_patches(table, hand, mirrored, options, out.work, patches)
         out.count[hand] = count
-        ux = forward
-        uy = mirror * velocity.y - mirror * rail_motion[4 + 2 * hand]
-        uz = velocity.z - rail_motion[5 + 2 * hand]
-        ox = mirror * velocity.about_x
-        oy = velocity.about_y
-        oz = mirror * velocity.about_z
+        slip = Slip(
+            forward, mirror * velocity.y - mirror * rail_motion[4 + 2 * hand],
+            velocity.z - rail_motion[5 + 2 * hand],
+            mirror * velocity.about_x, velocity.about_y, mirror * velocity.about_z, speed,
+        )  # fmt: skip
         for k in range(count):
             patch = patches[k]
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]
             ny, nz = patch.normal[1], patch.normal[2]
-            slip_x = ux + oy * pz - oz * py
-            slip_y = uy + oz * px - ox * pz
-            slip_z = uz + ox * py - oy * px
+            _, slip_y, slip_z = slip_velocity(slip, px, py, pz)
             closing = -(ny * slip_y + nz * slip_z)
             shares[k].damping = max(1.0 + options.damping * closing, 0.0)
-            patch.creep_x = slip_x / speed
-            patch.creep_y = (nz * slip_y - ny * slip_z) / speed
-            patch.spin = (ny * oy + nz * oz) / speed
+            patch.creep_x, patch.creep_y, patch.spin = creepage_at(slip, px, py, pz, ny, nz)
         for k in range(count):
             patch = patches[k]
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]
             ny, nz = patch.normal[1], patch.normal[2]
-            normal_force = patch.normal_force * shares[k].damping
-            fx, fy, mz = _patch_creep(k, patches, shares, count, options)
-            gy = nz * fy + ny * normal_force
-            gz = -ny * fy + nz * normal_force
-            my = mz * ny
-            mzz = mz * nz
-            mx = py * gz - pz * gy
-            my += pz * fx - px * gz
-            mzz += px * gy - py * fx
-            force_x += fx
+            if over_strips:
+                creep = strip_traction(out.work.strips, shares[k], patch, slip, options)
+            else:
+                fx, fy, mz = _patch_creep(k, patches, shares, count, options)
+                creep = Traction(fx, fy, 0.0, 0.0, 0.0, mz)
+            along_normal = patch.normal_force * shares[k].damping + creep.normal
+            gy = nz * creep.lateral + ny * along_normal
+            gz = -ny * creep.lateral + nz * along_normal
+            force_x += creep.x
             force_y += mirror * gy
             force_z += gz
-            moment_x += mirror * mx
-            moment_y += my
-            moment_z += mirror * mzz
-            patch.fx = fx
-            patch.fy = mirror * fy
-            patch.mz = mirror * mz
+            moment_x += mirror * (creep.moment_x + py * gz - pz * gy)
+            my = creep.moment_normal * ny + creep.moment_lateral * nz
+            mz = creep.moment_normal * nz - creep.moment_lateral * ny
+            moment_y += my + (pz * creep.x - px * gz)
+            moment_z += mirror * (mz + (px * gy - py * creep.x))
+            patch.fx = creep.x
+            patch.fy = mirror * creep.lateral
+            patch.mz = mirror * creep.moment_normal
         for k in range(count):
             # Only now, when no other patch of the side needs them any more.
             patch = patches[k]
             patch.normal_force *= shares[k].damping
-            patch.peak_pressure = 1.5 * patch.normal_force / (math.pi * patch.a * patch.b)
+            patch.peak_pressure *= shares[k].damping
             patch.creep_y *= mirror
             patch.spin *= mirror
             patch.position[1] *= mirror

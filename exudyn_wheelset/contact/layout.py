@@ -9,12 +9,13 @@ one array is the cheapest thing to hand over (docs/decisions/kernels-with-record
     CANDIDATE   a node of the scan where a lobe may be, before it is refined
     LOBE        a maximum of the penetration: its place, its territory, moments of its zone
     SHARE       what a patch's creep force needs besides PATCH while lobes merge
+    STRIP       a strip of a patch along the rolling direction (strips.py)
     PATCH       the fields of `Patch`, in their order
     RESULT      wrench, patches of either wheel, and WORK, the room that an evaluation needs
 
 Scalars that belong together travel between kernels as named tuples: Axle, Velocity, Material,
-Creepage, Ellipse, Zone. A kernel must not view an array that it has made itself: a record does not
-keep its array alive.
+Creepage, Slip, Traction, Ellipse, Zone. A kernel must not view an array that it has made itself: a
+record does not keep its array alive.
 """
 
 from __future__ import annotations
@@ -28,8 +29,10 @@ from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 
 MOST_LOBES = 3
+STRIPS_A_LOBE = 20
 MOST_NODES = 320
 HERTZ_LOCAL = NORMAL_MODELS["hertz-local"]
+STRIPS = NORMAL_MODELS["strips"]
 VIRTUAL_PENETRATION = NORMAL_MODELS["virtual-penetration"]
 
 
@@ -113,18 +116,28 @@ LOBE = _record(
     ("left", "f8"), ("right", "f8"), ("separation", "f8"),
     ("own", ZONE), ("merged", ZONE), ("merged_depth", "f8"),
 )  # fmt: skip
+# Place in wheel and rail arc, width, half length along x, penetration along the normal [m]; peak
+# pressure [Pa]; half curvature along x [1/m]; normal from rail into wheel;
+# x, y, z [m] from the wheelset's centre.
+STRIP = _numbers(
+    "arc", "foot", "width", "half_length", "depth", "pressure", "curvature",
+    "normal_y", "normal_z", "x", "y", "z",
+)  # fmt: skip
 ELLIPSE = _numbers("force", "a", "b")
 # A patch of separation s is s times `own` and (1 - s) share times `merged`, which it shares with
-# the patch of lobe `partner`; damping: the factor that damping puts on elastic normal forces.
+# the patch of lobe `partner`; damping: the factor that damping puts on elastic normal forces;
+# first_strip, strip_count: its strips, if it has any.
 SHARE = _record(
     ("lobe", "i8"), ("partner", "i8"), ("separation", "f8"), ("share", "f8"),
     ("own", ELLIPSE), ("merged", ELLIPSE), ("damping", "f8"),
+    ("first_strip", "i8"), ("strip_count", "i8"),
 )  # fmt: skip
 _SHAPES: dict[str, tuple[int, ...]] = {"float": (), "tuple[float, float, float]": (3,)}
 PATCH = _record(*((field.name, "f8", _SHAPES[str(field.type)]) for field in fields(Patch)))
 WORK = _record(
     ("candidates", CANDIDATE, (MOST_LOBES,)), ("lobes", LOBE, (MOST_LOBES,)),
     ("shares", SHARE, (MOST_LOBES,)), ("depths", "f8", (MOST_NODES,)),
+    ("strips", STRIP, (MOST_LOBES * STRIPS_A_LOBE,)),
 )  # fmt: skip
 RESULT = _record(
     ("force", "f8", (3,)), ("moment", "f8", (3,)),
@@ -171,6 +184,36 @@ class Creepage(NamedTuple):
     x: float
     y: float
     spin: float
+
+
+class Traction(NamedTuple):
+    """Creep force on a patch in its triad (x, lateral tangent, normal): forces [N], moments [N m].
+
+    Moments about the patch's position. A plane patch has no force along its normal, and no moment
+    but the one about it.
+    """
+
+    x: float
+    lateral: float
+    normal: float
+    moment_x: float
+    moment_lateral: float
+    moment_normal: float
+
+
+class Slip(NamedTuple):
+    """Velocity of a wheel over its rail: of the wheelset's centre [m/s], angular [rad/s], V [m/s].
+
+    For the right side mirrored.
+    """
+
+    x: float
+    y: float
+    z: float
+    about_x: float
+    about_y: float
+    about_z: float
+    speed: float
 
 
 class Ellipse(NamedTuple):

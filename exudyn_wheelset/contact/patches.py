@@ -22,6 +22,7 @@ from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
     HERTZ_LOCAL,
+    STRIPS,
     VIRTUAL_PENETRATION,
     Ellipse,
     Material,
@@ -30,6 +31,7 @@ from exudyn_wheelset.contact.layout import (
 )
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
+from exudyn_wheelset.contact.strip_patches import strip_patches
 from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_force, zone_integrals
 
 
@@ -152,6 +154,8 @@ def _set_ellipse(record, ellipse):
 def side_patches(table, hand, axle, parameters, work, patches):
     """Normal contact of one side: fills patches with geometry and elastic force; their count."""
     side = side_of(table, hand)
+    if parameters.normal == STRIPS:
+        return strip_patches(table, side, axle, parameters, work, patches)
     lobes = work.lobes
     material = Material(parameters.shear_modulus, parameters.poisson)
     count = find_lobes(table, side, axle, work)
@@ -251,5 +255,7 @@ def side_patches(table, hand, axle, parameters, work, patches):
         patch.normal[1] = ny
         patch.normal[2] = nz
         patch.energy = 0.4 * force * depth
+        # A share of a merged patch has its share of the ellipse: this is the merged patch's.
+        patch.peak_pressure = 1.5 * force / (math.pi * a * b)
         kept += 1
     return kept

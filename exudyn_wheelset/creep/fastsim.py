@@ -75,7 +75,7 @@ LAW = CreepLaw(
 
 
 @compiled
-def _slip(
+def slip_step(
     p_x: float,
     p_y: float,
     rise_x: float,
@@ -131,6 +131,53 @@ def _slip(
 
 
 @compiled
+def flexibilities(
+    creep_x: float,
+    creep_y: float,
+    spin: float,
+    a: float,
+    b: float,
+    limit: float,
+    shear_modulus: float,
+    poisson: float,
+    kind: float,
+) -> tuple[float, float, float]:
+    """Give (L_x, L_y, L_spin) [m/Pa] of an ellipse; limit: mu N [N]; kind: ONE, BLENDED or THREE.
+
+    All zero without creepage.
+    """
+    c11, c22, c23, _ = kalker_coefficients(a, b, poisson)
+    size = math.sqrt(a * b)
+    largest = max(abs(creep_x), abs(creep_y), abs(spin) * a)
+    if not largest > 1e-200:
+        return 0.0, 0.0, 0.0
+    soft_x = 8.0 * a / (3.0 * shear_modulus * c11)
+    soft_y = 8.0 * a / (3.0 * shear_modulus * c22)
+    soft_spin = math.pi * a * a / (4.0 * shear_modulus * size * c23)
+    if kind < THREE:
+        share_x = creep_x / largest
+        share_y = creep_y / largest
+        share_spin = 3.0 * math.pi / 32.0 * a * spin / largest
+        share_x, share_y, share_spin = share_x * share_x, share_y * share_y, share_spin * share_spin
+        soft = (share_x + share_y + share_spin) / (
+            share_x / soft_x + share_y / soft_y + share_spin / soft_spin
+        )
+        blend = 1.0
+        if kind == BLENDED:
+            saturation = limit / (a * b * shear_modulus)
+            fullness = math.sqrt(creep_x * creep_x + creep_y * creep_y)
+            fullness /= saturation * math.sqrt(1.0 / (c11 * c11) + 1.0 / (c22 * c22))
+            blend = min(1.0, fullness / _ONE_FROM)
+        if blend < 1.0:
+            soft_x += blend * (soft - soft_x)
+            soft_y += blend * (soft - soft_y)
+            soft_spin += blend * (soft - soft_spin)
+        else:
+            soft_x = soft_y = soft_spin = soft
+    return soft_x, soft_y, soft_spin
+
+
+@compiled
 def fastsim(
     creep_x: float,
     creep_y: float,
@@ -151,34 +198,11 @@ def fastsim(
     if not (limit > LEAST_FRICTION_FORCE and a > 0.0 and b > 0.0):
         return 0.0, 0.0, 0.0
     creep_x, creep_y, spin = bounded(creep_x), bounded(creep_y), bounded(spin)
-    c11, c22, c23, _ = kalker_coefficients(a, b, poisson)
-    size = math.sqrt(a * b)
-    largest = max(abs(creep_x), abs(creep_y), abs(spin) * a)
-    if not largest > 1e-200:
+    soft_x, soft_y, soft_spin = flexibilities(
+        creep_x, creep_y, spin, a, b, limit, shear_modulus, poisson, parameters[2]
+    )
+    if soft_x == 0.0:
         return 0.0, 0.0, 0.0
-    soft_x = 8.0 * a / (3.0 * shear_modulus * c11)
-    soft_y = 8.0 * a / (3.0 * shear_modulus * c22)
-    soft_spin = math.pi * a * a / (4.0 * shear_modulus * size * c23)
-    if parameters[2] < THREE:
-        share_x = creep_x / largest
-        share_y = creep_y / largest
-        share_spin = 3.0 * math.pi / 32.0 * a * spin / largest
-        share_x, share_y, share_spin = share_x * share_x, share_y * share_y, share_spin * share_spin
-        soft = (share_x + share_y + share_spin) / (
-            share_x / soft_x + share_y / soft_y + share_spin / soft_spin
-        )
-        blend = 1.0
-        if parameters[2] == BLENDED:
-            saturation = limit / (a * b * shear_modulus)
-            fullness = math.sqrt(creep_x * creep_x + creep_y * creep_y)
-            fullness /= saturation * math.sqrt(1.0 / (c11 * c11) + 1.0 / (c22 * c22))
-            blend = min(1.0, fullness / _ONE_FROM)
-        if blend < 1.0:
-            soft_x += blend * (soft - soft_x)
-            soft_y += blend * (soft - soft_y)
-            soft_spin += blend * (soft - soft_spin)
-        else:
-            soft_x = soft_y = soft_spin = soft
 
     # tractions in units of the bound at the middle of their strip; x and y in units of a and b
     cells = int(parameters[0])
@@ -227,14 +251,18 @@ def fastsim(
                     p1x *= cut
                     p1y *= cut
                 else:
-                    p1x, p1y = _slip(p1x + rise_1x, p1y + rise, rise_1x, rise, change, before, free)
+                    p1x, p1y = slip_step(
+                        p1x + rise_1x, p1y + rise, rise_1x, rise, change, before, free
+                    )
             if size_2 > free * free:
                 if spin == 0.0 or cell == 0:
                     cut = free / math.sqrt(size_2)
                     p2x *= cut
                     p2y *= cut
                 else:
-                    p2x, p2y = _slip(p2x + rise_2x, p2y + rise, rise_2x, rise, change, before, free)
+                    p2x, p2y = slip_step(
+                        p2x + rise_2x, p2y + rise, rise_2x, rise, change, before, free
+                    )
             total_1x += p1x
             total_2x += p2x
             total_1y += p1y
