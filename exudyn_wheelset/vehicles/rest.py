@@ -22,7 +22,7 @@ from exudyn_wheelset.vehicles.rail_support import AxleRest, rail_wrench, rest_on
 from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
 
 Array = np.ndarray
-_NEWTON_STEPS = 40
+_NEWTON_STEPS = 60
 # Accelerations [m/s^2, rad/s^2] that are rounding.
 _AT_REST = 1.0e-7
 
@@ -170,7 +170,7 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
             radius = radii[k] * (1.0 + (0.0 if axle.driven else trial[k, 4]))
             at = np.array([height, roll, trial[k, 1], radius])
             wrench, loads = rail_wrench(axle.wheelset, vehicle.track, vehicle.contact, at, yaw)
-            axles.append(AxleRest(height, trial[k, 1], roll, radius, wrench, loads))
+            axles.append(AxleRest(height, float(trial[k, 1]), roll, float(radius), wrench, loads))
             trial[k, 3:] = Rotation.from_euler("ZX", [yaw, roll]).as_rotvec()
         return trial, axles
 
@@ -196,7 +196,7 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
         wheels = np.abs(step.reshape(-1, 6)[:spins, [2, 3]]).max(initial=0.0)
         unknown = unknown + step * min(1.0, 5e-5 / wheels if wheels > 0.0 else 1.0)
         residual = left(unknown)
-        if np.abs(step).max() < 1e-11:
+        if np.abs(step).max() < 1e-14 or np.abs(residual).max() < _AT_REST:
             break
     if not np.abs(residual).max() < 1e-5:
         worst = vehicle.parts[int(np.argmax(np.abs(residual))) // 6].name
