@@ -30,7 +30,8 @@ from scipy.interpolate import CubicSpline, PPoly
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+from exudyn_wheelset.geometry.rigid import ContactGeometry, searched_geometry
+from exudyn_wheelset.geometry.roughness import rough_profiles, warn_if_rough
 
 FloatArray = NDArray[np.float64]
 Search = Callable[[FloatArray], FloatArray]
@@ -113,6 +114,8 @@ def piecewise_geometry(
     [m or rad] for roll, height and radii, a hundred times as much for positions and angles; the
     polynomials' degree is raised up to highest_degree to meet it, and pieces are cut. Every
     residual is within the tolerance unless the contact search itself is rougher.
+    A profile whose curvature is measurement noise has hundreds of jumps: it gets straight lines
+    between the searched points, with their residuals, and a WheelsetWarning.
     Raises ContactError if a wheel leaves its rail within the range.
     """
     if representation not in REPRESENTATIONS:
@@ -123,12 +126,16 @@ def piecewise_geometry(
 
     def search(y: FloatArray) -> FloatArray:
         """Columns at y, any shape (...): (..., 10) in units of what is allowed."""
-        found = geometry_columns(contact_geometry(wheelset, track, y.ravel()))
+        found = geometry_columns(searched_geometry(wheelset, track, y.ravel()))
         return (found / allowed).reshape(*y.shape, len(COLUMNS))
 
     y = np.linspace(-half_range, half_range, 2 * int(np.ceil(half_range / spacing)) + 1)
     places = search(y)[:, [2, 3, 6, 7]] * allowed[2]
     moved = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) > JUMP)
+    if rough_profiles(wheelset, track):
+        warn_if_rough(wheelset, track, y, places)
+        jumps, pieces = _straight_lines(search, y, moved)
+        return _geometry_of(jumps, pieces, y[-1], allowed)
     jumps = _locate_jumps(search, y[moved], y[moved + 1])
     jumps = np.unique(jumps[np.isfinite(jumps)])
     ends = np.concatenate([y[:1], jumps, y[-1:]])
@@ -136,7 +143,13 @@ def piecewise_geometry(
     if representation == "cubic":
         ends = np.concatenate([y[:1], jumps, y[-1:]])
         pieces = [_cubics(search, low, high, spacing) for low, high in pairwise(ends)]
-    breaks = np.array([*(piece.low for piece in pieces), y[-1]])
+    return _geometry_of(jumps, pieces, y[-1], allowed)
+
+
+def _geometry_of(
+    jumps: FloatArray, pieces: list[_Piece], last: float, allowed: FloatArray
+) -> PiecewiseGeometry:
+    breaks = np.array([*(piece.low for piece in pieces), last])
     curves = _join([piece.curve for piece in pieces], breaks)
     return PiecewiseGeometry(
         jumps,
@@ -176,6 +189,28 @@ def _locate_jumps(search: Search, low: FloatArray, high: FloatArray) -> FloatArr
         low[~left], at_low[~left] = middle[~left], here[~left]
     jumped = np.abs(at_high - at_low).max(axis=1) > 1.0
     return np.where(jumped, 0.5 * (low + high), np.nan)
+
+
+def _straight_lines(search: Search, y: FloatArray, moved: NDArray[np.intp]):
+    """Jumps midway between searched points, straight lines through the points between them."""
+    jumps = 0.5 * (y[moved] + y[moved + 1])
+    lows = np.concatenate([y[:1], jumps])
+    values = search(y)
+    between = search(0.5 * (y[1:] + y[:-1]))
+    pieces = []
+    for low, nodes in zip(lows, np.split(np.arange(len(y)), moved + 1), strict=True):
+        if len(nodes) == 1:
+            step = 0.25 * (y[1] - y[0])
+            x = np.array([y[nodes[0]] - step, y[nodes[0]] + step])
+            curve = PPoly(np.stack([0.0 * values[nodes], values[nodes]]), x)
+            miss = (curve(x) - search(x))[None]
+        else:
+            rise = np.diff(values[nodes], axis=0) / np.diff(y[nodes])[:, None]
+            curve = PPoly(np.stack([rise, values[nodes[:-1]]]), y[nodes])
+            middle = 0.5 * (values[nodes[1:]] + values[nodes[:-1]])
+            miss = np.repeat((middle - between[nodes[:-1]])[None], 2, axis=1)
+        pieces.append(_Piece(float(low), curve, 1, _residual(miss)[0]))
+    return jumps, pieces
 
 
 def _polynomials(search: Search, ends: FloatArray, highest_degree: int):

@@ -28,6 +28,7 @@ from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.gap import gap_difference, least_gap
+from exudyn_wheelset.geometry.roughness import warn_if_rough
 
 METHODS = ("root", "nelder-mead")
 _ROLL_RANGE = 0.12
@@ -247,8 +248,24 @@ def contact_geometry(
     y [m] positive to the left, yaw [rad] positive nose left; both broadcast. method: "root" or
     "nelder-mead" (the paper's). weights: of the three differences of the double-point objective
     of "nelder-mead".
-    Raises ContactError where no roll angle brings both wheels onto their rails.
+    Raises ContactError where no roll angle brings both wheels onto their rails. WheelsetWarning
+    where contact jumps from crest to crest of a profile's measurement noise.
     """
+    found = searched_geometry(wheelset, track, y, yaw, method, weights)
+    places = np.column_stack((found.left.wheel_y, found.right.wheel_y))
+    warn_if_rough(wheelset, track, found.y, places)
+    return found
+
+
+def searched_geometry(
+    wheelset: Wheelset,
+    track: Track,
+    y: ArrayLike,
+    yaw: ArrayLike = 0.0,
+    method: str = "root",
+    weights: tuple[float, float, float] = (1.0, 1.0, 1.0),
+) -> ContactGeometry:
+    """As `contact_geometry`, without a warning: for searches that call it many times."""
     if method not in METHODS:
         raise WheelsetError(f"method {method!r} is unknown: use one of {', '.join(METHODS)}")
     shifts, yaws = np.broadcast_arrays(

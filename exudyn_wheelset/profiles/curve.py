@@ -56,6 +56,27 @@ def chord_length(points: FloatArray) -> FloatArray:
     return np.concatenate(([0.0], np.cumsum(steps)))
 
 
+def distance_to_neighbours(points: FloatArray) -> FloatArray:
+    """Distance of each point to the cubic through two neighbours on either side [m], shape (n,).
+
+    points: shape (n, 2), columns y and z [m]. It is 0 for the two points at each end.
+    """
+    # The added picometres part points that coincide after others between them were taken out.
+    t = chord_length(points) + 1e-12 * np.arange(len(points))
+    distance = np.zeros(len(t))
+    window = [-2, -1, 1, 2]
+    inner = np.arange(2, len(t) - 2)
+    predicted = np.zeros((len(inner), 2))
+    for i in window:
+        weight = np.ones(len(inner))
+        for j in window:
+            if j != i:
+                weight *= (t[inner] - t[inner + j]) / (t[inner + i] - t[inner + j])
+        predicted += weight[:, None] * points[inner + i]
+    distance[inner] = np.hypot(*(points[inner] - predicted).T)
+    return distance
+
+
 def smoothed_points(t: FloatArray, points: FloatArray, rms_distance: float) -> FloatArray:
     """Points of the cubic smoothing spline at `t`, at the given rms distance to `points`.
 

@@ -22,8 +22,6 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.profiles.finish import Options, check_options, finish
@@ -102,8 +100,7 @@ def load_profile(
     profile = finish(raw, label, path.stem, options)
     for remark in profile.remarks:
         _LOG.info("%s: %s", label, remark)
-    points = np.column_stack((profile.y, profile.z))
-    warn_of_noise(label, points, profile.noise, float(profile.smoothing))
+    warn_of_noise(label, profile.noise, profile.curvature_noise)
     return profile
 
 

@@ -16,10 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exudyn_wheelset.errors import ProfileError
-from exudyn_wheelset.profiles.curve import chord_length
-from exudyn_wheelset.profiles.formats.raw import UNITS, RawProfile, fault, listed, unit_word
+from exudyn_wheelset.profiles.formats.raw import RawProfile, fault, listed
 from exudyn_wheelset.profiles.mending import (
-    CLOSEST,
     Stretch,
     advancing_stretch,
     averaged,
@@ -28,18 +26,14 @@ from exudyn_wheelset.profiles.mending import (
     without_lost_ends,
 )
 from exudyn_wheelset.profiles.orientation import look_at
-from exudyn_wheelset.profiles.profile import (
-    KINDS,
-    RAIL_TOP_RANGE,
-    Profile,
-    distance_to_neighbours,
-    size_hint,
-)
+from exudyn_wheelset.profiles.outliers import without_outliers, without_spikes
+from exudyn_wheelset.profiles.plausible import RAIL_TOP_RANGE
+from exudyn_wheelset.profiles.profile import KINDS, Profile
+from exudyn_wheelset.profiles.units import unit_factor
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-_GREATEST_SPAN = 0.3
 _MOST_POINTS = 50_000
 _DATUM_SHIFT = 5e-3
 _STEEP = 3.0
@@ -84,11 +78,14 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
     points = np.column_stack((raw.y, raw.z)).astype(np.float64)
     keep = without_lost_ends(points, lines, remarks)
     points, lines = points[keep], lines[keep]
-    points *= _unit_factor(raw, points, lines, label, options.unit, remarks)
+    points *= unit_factor(raw, points, lines, label, options.unit, remarks)
     if options.outlier_tolerance is not None:
-        keep = _without_outliers(points, options.outlier_tolerance, lines, label, remarks)
+        keep = without_outliers(points, options.outlier_tolerance, lines, label, remarks)
         points, lines = points[keep], lines[keep]
     points, lines, low_face, high_face = _in_one_direction(points, lines, label, remarks)
+    if options.smoothing == "auto" and options.outlier_tolerance is None:
+        keep = without_spikes(points, lines, remarks)
+        points, lines = points[keep], lines[keep]
     y, z = points[:, 0], points[:, 1]
 
     place = raw.kind_line if raw.kind else int(lines[0])
@@ -223,115 +220,6 @@ def _say_what_is_cut(
             + (f", which recede by {1e3 * behind:.2g} mm" if behind > _UNDERCUT else "")
         )
     remarks.append(f"{cut} points of overhanging ends cut off: {'; '.join(parts)}")
-
-
-def _unit_factor(
-    raw: RawProfile,
-    points: FloatArray,
-    lines: IntArray,
-    label: str,
-    asked: str | None,
-    remarks: list[str],
-) -> float:
-    """Metres per number of the file; the unit is named, or told by the width of the profile."""
-    unit = raw.unit
-    if asked is not None:
-        unit = unit_word(asked)
-        if unit is None:
-            raise ProfileError(f"{label}: unit={asked!r}; use 'mm', 'm', 'cm' or 'inch'")
-        if raw.unit not in (None, unit):
-            remarks.append(f"read in {unit} as asked for, although the file says {raw.unit}")
-    _check_lost_points(points, lines, label)
-    width = float(np.max(np.ptp(points, axis=0)))
-    if unit is None:
-        if 15.0 <= width <= 1e3 * _GREATEST_SPAN:
-            unit = "mm"
-        elif 0.015 <= width <= _GREATEST_SPAN:
-            unit = "m"
-        else:
-            raise fault(
-                label,
-                int(lines[0]),
-                f"the numbers are {width:g} wide, which fits neither mm nor m; "
-                "add '# unit: mm' (m, cm, inch) on top, or give unit=",
-            )
-        remarks.append(f"taken as {unit}, because the numbers are {width:g} wide")
-    factor = UNITS[unit]
-    if not 2e-3 <= width * factor <= _GREATEST_SPAN:
-        raise fault(
-            label,
-            raw.unit_line or int(lines[0]),
-            f"in {unit} the profile is {width * factor:g} m wide; one is 2 to 300 mm wide. "
-            + size_hint(width * factor),
-        )
-    return factor
-
-
-def _check_lost_points(points: FloatArray, lines: IntArray, label: str) -> None:
-    """Name the lines of points that lie far from all others, before the unit is blamed."""
-    centre = np.median(points, axis=0)
-    distance = np.max(np.abs(points - centre), axis=1)
-    typical = float(np.quantile(distance, 0.9))
-    far = np.flatnonzero(distance > 20.0 * max(typical, 1e-12))
-    if len(far) and typical > 0.0:
-        y, z = points[far[0]]
-        more = (
-            f" (so do lines {listed([str(lines[i]) for i in far[1:]], 100)})"
-            if far[1:].size
-            else ""
-        )
-        raise fault(
-            label,
-            int(lines[far[0]]),
-            f"the point y = {y:g}, z = {z:g} lies far from all others{more}; "
-            "mend or delete the line",
-        )
-
-
-def _without_outliers(
-    points: FloatArray, tolerance: float, lines: IntArray, label: str, remarks: list[str]
-) -> IntArray:
-    """Indices of the points within `tolerance` [m] of the curve through their neighbours."""
-    if not tolerance > 0.0:
-        raise ProfileError(f"{label}: outlier_tolerance = {tolerance:g} m; use a positive distance")
-    keep = np.arange(len(points))
-    t = chord_length(points)
-    keep = keep[np.concatenate(([True], np.diff(t) > CLOSEST))]
-    doubled = len(points) - len(keep)
-    if doubled:
-        remarks.append(f"{doubled} doubled points left out")
-    dropped: list[int] = []
-    while len(keep) >= 8:
-        distance = distance_to_neighbours(points[keep])
-        worst = np.flatnonzero(distance > tolerance)
-        if not len(worst):
-            break
-        gone = np.zeros(len(keep) + 4, dtype=bool)
-        for i in worst[np.argsort(-distance[worst])]:
-            if not np.any(gone[max(i - 2, 0) : i + 3]):
-                gone[i] = True
-        dropped += [int(lines[i]) for i in keep[gone[: len(keep)]]]
-        keep = keep[~gone[: len(keep)]]
-    if 5 * len(dropped) > len(points) or len(keep) < 8:
-        raise fault(
-            label,
-            min(dropped),
-            f"more than a fifth of the points lie farther than {tolerance:g} m from their "
-            f"neighbours; raise outlier_tolerance to {_usual_distance(points):.2g} or more, or "
-            "leave it out and give smoothing='auto'",
-        )
-    if dropped:
-        words = [str(line) for line in sorted(dropped)]
-        remarks.append(
-            f"{len(dropped)} outliers beyond {1e6 * tolerance:g} micrometres left out, "
-            f"lines {listed(words, 10)}"
-        )
-    return keep
-
-
-def _usual_distance(points: FloatArray) -> float:
-    """A tolerance [m] that few points exceed."""
-    return 2.0 * float(np.quantile(distance_to_neighbours(points), 0.98)) + 1e-9
 
 
 def _oriented(

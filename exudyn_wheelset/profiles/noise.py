@@ -95,13 +95,15 @@ def curvature_noise(sigma: float, points: FloatArray) -> float:
     return float(np.sqrt(6.0)) * sigma / spacing**2
 
 
-def warn_of_noise(name: str, points: FloatArray, sigma: float, smoothing: float) -> None:
-    """WheelsetWarning where a curve without smoothing has a curvature that is mostly noise."""
-    noise = curvature_noise(sigma, points)
-    if smoothing == 0.0 and noise > _WORTHLESS_CURVATURE:
+def warn_of_noise(name: str, sigma: float, noise: float) -> None:
+    """WheelsetWarning where a curve's curvature is off by more than a tread has.
+
+    sigma: of the points [m]; noise: of the curvature [1/m].
+    """
+    if noise > _WORTHLESS_CURVATURE:
         warnings.warn(
             f"{name}: the points are off by {1e6 * sigma:.2g} micrometres, so the curvature of the "
-            f"unsmoothed curve is off by {noise:.3g} 1/m, where a tread has about 3 1/m: contact "
+            f"curve through them is off by {noise:.3g} 1/m, where a tread has about 3 1/m: contact "
             "will be rough and conicity wrong; give smoothing='auto'",
             WheelsetWarning,
             stacklevel=3,
