@@ -163,6 +163,28 @@ def test_creep_over_strips_is_fastsim_on_an_ellipse(tread, slip):
     assert abs(patch.mz - mz) < 0.03 * limit * math.sqrt(patch.a * patch.b)
 
 
+@pytest.mark.parametrize("yaw", [0.0, 0.005])
+@pytest.mark.parametrize("name", ["throat", "R13 in R13", "flange root"])
+def test_creep_over_strips_against_the_exact_law_on_the_like_ellipse(name, yaw):
+    """Two ways to the creep force of a patch with large spin: 2 % of mu N apart.
+
+    One is rough about elasticity, the other about the outline and the fanning normals.
+    """
+    y, depth = POSES[name]
+    geometry = contact_geometry(WHEELSET, TRACK, [y], yaw)
+    roll = float(geometry.roll[0])
+    axle = np.array([-math.sin(yaw), math.cos(yaw), math.sin(roll)])
+    velocity = (20.0, 0.0, 0.0, *(20.0 / 0.4605 * axle))
+    pose = (0, y, float(geometry.z[0]) - depth, roll, 0, yaw)
+    sums = []
+    for creep in ("fastsim", "exact"):
+        forces = contact_forces(WHEELSET, TRACK, pose, velocity, normal="strips", creep=creep)
+        sums.append([(p.fx, p.fy, p.normal_force) for p in forces.left])
+    over_strips, on_ellipse = (np.sum(rows, axis=0) for rows in sums)
+    limit = 0.3 * on_ellipse[2]
+    assert np.hypot(*(over_strips - on_ellipse)[:2]) < 0.02 * limit
+
+
 def test_force_is_nearly_the_gradient_of_the_energy():
     """Each strip's force is along its own normal: within 2 % of the energy's gradient."""
     for y in (0.0, 0.003, 0.0048, 0.006, 0.0062, 0.007):
