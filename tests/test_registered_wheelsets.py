@@ -182,3 +182,13 @@ def test_a_driven_wheelset_steps_as_its_drive_needs(given):
     model = paper_wheelset(1, driven=True)
     rate = 1e6 / model.wheelset.inertia[1]
     assert model.dynamic_system(**given).step < 2.7 / rate
+
+
+def test_a_spring_beside_the_axle_is_refused_by_name():
+    """0.2 mm off the axle a spring of 5e6 N/m goes round with the wheels."""
+    container, mbs = build(axles=(1.2,))
+    (items,) = wheelsets_of(mbs)
+    ground = mbs.CreateGround()
+    spring(mbs, items.body, [0, 1.0, 2e-4], ground, [1.2, 1.0, items.reference[2]], 0.0)
+    with pytest.raises(AnalysisError, match=r"'wheelset', which spins.*on the axle itself"):
+        ExudynSystem(mbs, container)

@@ -35,6 +35,8 @@ from exudyn_wheelset.systems.reduction import expand_state, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
+# Turns a spinning body far enough for what is fixed beside its axle to be seen [rad].
+SPIN_ANGLE = 1.0
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
 FIRST_SPEED = 10.0
 
@@ -150,6 +152,7 @@ class ExudynSystem(DynamicSystem):
         # Lateral and vertical displacement and roll of each wheelset.
         self.pose_indices = tuple((place[0], place[1], place[3]) for place in places)
         self._check_mass_matrix()
+        self._check_spin()
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -351,6 +354,42 @@ class ExudynSystem(DynamicSystem):
                     f"{self.name}: a body that spins about y has the inertia {inertia[0, 0]:g} "
                     f"about x, but {inertia[2, 2]:g} kg m^2 about z: its equations then change "
                     "with the spin angle and there is no steady run; give it Ix = Iz"
+                )
+
+    def _check_spin(self) -> None:
+        """Forces on spinning bodies must not know the spin angle; AnalysisError otherwise.
+
+        At rest, all bodies a little off their places, each spinning body is turned by SPIN_ANGLE:
+        its force and, in axes that do not turn, its moment must stay what they were.
+        """
+        data, solver, mbs = self._data, self._solver, self.mbs
+        shifted = np.zeros(self.size)
+        shifted[: self._positions] = 0.1 * self.scales[: self._positions]
+        for first, yaw, spins in self._rotations:
+            if not spins:
+                continue
+            shifted[yaw : yaw + 2] = 0.0
+            coordinates, velocities, first_order = self.layout.expand(shifted)
+            forces = []
+            for angle in (0.0, SPIN_ANGLE):
+                coordinates[first + 1] += angle
+                data.SetODE2Coordinates(coordinates)
+                data.SetODE2Coordinates_t(velocities)
+                if self._order1:
+                    data.SetODE1Coordinates(first_order)
+                solver.ComputeODE2RHS(mbs)
+                force = np.array(solver.GetSystemResidual())[: self._order2]
+                c, s = np.cos(angle), np.sin(angle)
+                x, z = force[first], force[first + 2]
+                force[first], force[first + 2] = c * x + s * z, c * z - s * x
+                forces.append(force)
+            change = float(np.abs(forces[1] - forces[0]).max())
+            if change > 1e-6 * np.abs(forces[0]).max():
+                name = self.state_names[yaw].rpartition(": ")[0] or self.name
+                raise AnalysisError(
+                    f"{self.name}: forces change by {change:.3g} N (or N m) when {name!r}, which "
+                    "spins, is turned about its axle, so there is no steady run: attach springs "
+                    "and dampers on the axle itself, at local positions (0, y, 0)"
                 )
 
     def use_speed(self, speed: float) -> None:
