@@ -24,7 +24,7 @@ from exudyn_wheelset import (
     contact_forces,
     contact_geometry,
 )
-from exudyn_wheelset.catalogue.wheelset_on_frame import GRAVITY
+from exudyn_wheelset.vehicles.description import GRAVITY
 
 SPEED, RADIUS, AXLE_LOAD = 20.0, 0.3556, 150e3
 STIFFNESS, HALF_DISTANCE = (2.85e5, 1.84e5, 0.0), 0.61

@@ -1,9 +1,9 @@
 """A truck (bogie): two wheelsets and a frame, on springs under a car body that runs straight at V.
 
 The frame is a rigid body with six degrees of freedom. Springs and dampers join it to the axle
-boxes (primary) and to the car body (secondary, and in yaw); they act along the axes of the track
-frame, at the height of the axles (primary) and of the secondary springs, the yaw springs at the
-frame's centre. The model stands in the frame that moves at V, so a car body that runs straight is
+boxes (primary) and to the car body (secondary, and in yaw); they act along the axes of the frame,
+at the height of the axles (primary) and of the secondary springs, the yaw springs at the frame's
+centre. The model stands in the frame that moves at V, so a car body that runs straight is
 Exudyn's ground; a body that moves may be given in its place.
 
 The vertical springs carry the static load from the start: they are preloaded by it. Its points of
@@ -21,45 +21,39 @@ of Kaas-Petersen's bogie (C. Kaas-Petersen, Acta Mechanica 61 (1986) 89-107).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn import graphics
-from exudyn.utilities import (
-    MarkerBodyRigid,
-    ObjectConnectorCartesianSpringDamper,
-    RigidBodyInertia,
-)
 from scipy.optimize import brentq
 
-from exudyn_wheelset.catalogue.wheelset_on_frame import GRAVITY, Suspension
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, split_contact
+from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
-from exudyn_wheelset.coupling.create import create_wheelset
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP, create_spin_drive
+from exudyn_wheelset.systems.vehicle_system import vehicle_system
+from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
+from exudyn_wheelset.vehicles.builder import VehicleBuilder
+from exudyn_wheelset.vehicles.description import GRAVITY, Vehicle
+from exudyn_wheelset.vehicles.elements import Spring
 
 
 @dataclass(frozen=True)
 class TruckItems:
     """Item numbers of a truck in an Exudyn system.
 
-    node, body: the frame; wheelsets: leading first; primary: connectors of the axle boxes, by
-    wheelset, left before right; secondary: left, right; yaw: left, right.
+    node, body: the frame; wheelsets: leading first; vehicle: all items by name.
     """
 
     node: int
     body: int
     wheelsets: tuple[WheelsetItems, ...]
-    primary: tuple[int, ...]
-    secondary: tuple[int, ...]
-    yaw: tuple[int, ...]
+    vehicle: VehicleItems
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -140,86 +134,75 @@ class Truck:
         *,
         position: Sequence[float] = (0.0, 0.0),
         car_body: int | None = None,
-        car_centre: Sequence[float] = (0.0, 0.0, 0.0),
+        car_centre: Sequence[float] | None = None,
         show: bool = True,
         name: str = "truck",
         **options: Any,
     ) -> TruckItems:
         """Add the truck to `mbs`, in the frame that moves at `speed` [m/s]; return its items.
 
-        position (x, y) [m] of the frame's centre; car_body: a rigid body with its reference
-        position car_centre (x, y, z) [m] that stands on the secondary springs in place of the
-        ground; options: of `create_wheelset` (irregularity, sensors, lateral_offset, ...), for
-        both wheelsets.
+        position (x, y) [m] of the frame's centre; car_body: a rigid body that stands on the
+        secondary springs in place of the ground, where its node has it (car_centre (x, y, z) [m] is
+        compared with that if given); options: of `create_wheelset` (irregularity, sensors,
+        lateral_offset, ...), for both wheelsets.
         """
-        x, y = position
-        height = self.rest_height()
-        wheelsets = tuple(
-            create_wheelset(
-                mbs,
-                self.wheelset,
-                self.track,
-                position=(x + ahead, y),
-                speed=speed,
-                moving_frame=True,
-                height=height,
-                gravity=GRAVITY,
-                show=show,
-                name=f"{name} {which} wheelset",
-                **{**self.contact, **options},
-            )
-            for which, ahead in (
-                ("leading", self.half_wheelbase),
-                ("trailing", -self.half_wheelbase),
-            )
-        )
-        centre = np.array([x, y, self.wheelset.radius + height + self.axle_drop])
-        frame = mbs.CreateRigidBody(
-            name=f"{name} frame",
-            inertia=RigidBodyInertia(
-                mass=self.frame_mass, inertiaTensor=np.diag(self.frame_inertia)
-            ),
-            nodeType=exu.NodeType.RotationRotationVector,
-            referencePosition=centre.tolist(),
-            gravity=[0.0, 0.0, -GRAVITY],
-            graphicsDataList=self.frame_graphics() if show else [],
-            returnDict=True,
-        )
-        body = frame["bodyNumber"]
-        above = mbs.CreateGround() if car_body is None else car_body
-        origin = np.zeros(3) if car_body is None else np.asarray(car_centre, dtype=float)
-
-        box_load = (self.frame_mass * GRAVITY + self.car_load) / 4.0
-        primary = tuple(
-            _connect(
-                mbs,
-                (items.body, [0.0, side, 0.0]),
-                (body, [ahead, side, -self.axle_drop]),
-                self.primary,
-                box_load,
-            )
-            for items, ahead in zip(
-                wheelsets, (self.half_wheelbase, -self.half_wheelbase), strict=True
-            )
-            for side in (self.primary.half_distance, -self.primary.half_distance)
-        )
-
-        def below_car(suspension: Suspension, rise: float, load: float) -> tuple[int, ...]:
-            connectors = []
-            for side in (suspension.half_distance, -suspension.half_distance):
-                place = np.array([0.0, side, rise])
-                on_car = (centre + place - origin).tolist()
-                connectors.append(
-                    _connect(mbs, (body, place.tolist()), (above, on_car), suspension, load)
+        if car_body is not None and car_centre is not None:
+            node = int(mbs.GetObject(car_body)["nodeNumber"])
+            real = mbs.GetNodeParameter(node, "referenceCoordinates")[:3]
+            if not np.allclose(real, car_centre, rtol=0.0, atol=1e-6):
+                raise WheelsetError(
+                    f"{name}: car_centre = {tuple(car_centre)} m, but the car body's reference "
+                    f"position is {tuple(real)} m: leave car_centre out"
                 )
-            return tuple(connectors)
+        contact, options = split_contact(self.contact, options)
+        items = add_vehicle(
+            mbs,
+            replace(self, contact=contact).vehicle(name),
+            speed,
+            position=position,
+            ground_body=car_body,
+            show=show,
+            **options,
+        )
+        frame = items.bodies[f"{name} frame"]
+        return TruckItems(frame.node, frame.body, tuple(items.wheelsets.values()), items)
 
-        secondary = below_car(self.secondary, self.secondary_rise, 0.5 * self.car_load)
-        yaw = () if self.yaw is None else below_car(self.yaw, 0.0, 0.0)
-        if self.driven:
-            for items in wheelsets:
-                create_spin_drive(mbs, items, self.wheelset.radius)
-        return TruckItems(frame["nodeNumber"], body, wheelsets, primary, secondary, yaw)
+    def vehicle(self, name: str = "truck") -> Vehicle:
+        """The truck as a description; its parts' names begin with `name`."""
+        contact = Contact(**self.contact)
+        made = VehicleBuilder(name, self.track, contact)
+        height = self.wheelset.radius + self.rest_height() + self.axle_drop
+        frame = made.body(f"{name} frame", self.frame_mass, self.frame_inertia, (0.0, 0.0, height))
+        primary, secondary = self.primary, self.secondary
+        for which, ahead in (
+            ("leading", self.half_wheelbase),
+            ("trailing", -self.half_wheelbase),
+        ):
+            axle = made.wheelset(
+                f"{name} {which} wheelset", self.wheelset, x=ahead, driven=self.driven
+            )
+            for side, sign in (("left", 1.0), ("right", -1.0)):
+                made.connect(
+                    Spring(primary.stiffness, primary.damping),
+                    axle,
+                    frame,
+                    at=(ahead, sign * primary.half_distance, axle.z),
+                    name=f"{which} {side} primary",
+                )
+        joints = [("secondary", secondary, self.secondary_rise, 0.5 * self.car_load)]
+        if self.yaw is not None:
+            joints.append(("yaw", self.yaw, 0.0, 0.0))
+        for word, suspension, rise, load in joints:
+            for side, sign in (("left", 1.0), ("right", -1.0)):
+                made.connect(
+                    Spring(suspension.stiffness, suspension.damping),
+                    frame,
+                    made.ground,
+                    at=(0.0, sign * suspension.half_distance, height + rise),
+                    name=f"{side} {word}",
+                    preload=(0.0, 0.0, load),
+                )
+        return made.finish()
 
     def rest_height(self) -> float:
         """Height [m] of the axles above `radius` over the rail tops where the rails carry the load.
@@ -254,18 +237,8 @@ class Truck:
 
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
-        if self.driven and options.get("settings") is None and options.get("step") is None:
-            options = {**options, "step": DRIVEN_STEP}
-        container, mbs, items = self.build(20.0, sensors=False, show=False)
-        spinning = dict.fromkeys((one.node for one in items.wheelsets), self.wheelset.radius)
-        return ExudynSystem(
-            mbs,
-            container,
-            spinning_nodes=spinning if self.driven else {},
-            name=self.name,
-            parameters=self.parameters(),
-            **options,
-        )
+        given = {"name": self.name, "parameters": self.parameters(), **options}
+        return vehicle_system(self.vehicle(), **given)
 
     def parameters(self) -> dict[str, Any]:
         """All numbers and names behind the model, for records."""
@@ -291,55 +264,6 @@ class Truck:
             "contact": dict(self.contact),
             "driven": self.driven,
         }
-
-    def frame_graphics(self) -> list[dict]:
-        """Side beams, cross beam and secondary springs for Exudyn's renderer; no true shape."""
-        colour = [0.24, 0.42, 0.36, 1.0]
-        side, low = 1.0, 0.10
-        items = []
-        for sign in (1.0, -1.0):
-            beam = [0.9 * self.half_wheelbase, sign * side, low]
-            items.append(
-                graphics.Brick(
-                    centerPoint=[0.0, sign * side, low],
-                    size=[2.0 * beam[0], 0.14, 0.16],
-                    color=colour,
-                )
-            )
-            items += [
-                graphics.Brick(
-                    centerPoint=[end * self.half_wheelbase, sign * side, -self.axle_drop],
-                    size=[0.26, 0.20, 0.24],
-                    color=[0.30, 0.32, 0.34, 1.0],
-                )
-                for end in (1.0, -1.0)
-            ]
-            items += [
-                graphics.Brick(
-                    centerPoint=[end * self.half_wheelbase, sign * side, low + 0.04],
-                    size=[0.34, 0.14, 0.10],
-                    color=colour,
-                )
-                for end in (1.0, -1.0)
-            ]
-            items.append(
-                graphics.Cylinder(
-                    pAxis=[0.0, sign * side, low + 0.08],
-                    vAxis=[0.0, 0.0, 0.30],
-                    radius=0.17,
-                    color=[0.12, 0.12, 0.13, 1.0],
-                    nTiles=32,
-                )
-            )
-        for ahead in (0.22, -0.22):
-            items.append(
-                graphics.Brick(
-                    centerPoint=[ahead, 0.0, low],
-                    size=[0.14, 2.0 * side, 0.14],
-                    color=colour,
-                )
-            )
-        return items
 
 
 def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truck:
@@ -370,27 +294,4 @@ def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truc
             **contact,
         },
         name="truck of the DTU car",
-    )
-
-
-def _connect(
-    mbs: Any,
-    lower: tuple[int, list[float]],
-    upper: tuple[int, list[float]],
-    suspension: Suspension,
-    load: float,
-) -> int:
-    """Springs and dampers that carry `load` [N] of the upper body on the lower one at rest."""
-    markers = [
-        mbs.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
-        for body, place in (lower, upper)
-    ]
-    vertical = suspension.stiffness[2]
-    return mbs.AddObject(
-        ObjectConnectorCartesianSpringDamper(
-            markerNumbers=markers,
-            stiffness=list(suspension.stiffness),
-            damping=list(suspension.damping),
-            offset=[0.0, 0.0, load / vertical if vertical > 0.0 else 0.0],
-        )
     )

@@ -3,26 +3,26 @@
 The model stands in the moving frame (Galilean: the laws of motion are those over the ground), so
 the frame is Exudyn's ground and the rails run backwards. At either end of the axle, at half
 distance b, a spring and damper in x, y and z; a vertical force at the springs carries the load
-beyond the wheelset's own weight.
+beyond the wheelset's own weight, with no force of the springs beside it where the wheelset stands.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.utilities import LoadForceVector, MarkerBodyRigid, ObjectConnectorCartesianSpringDamper
 
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.coupling.create import create_wheelset
+from exudyn_wheelset.contact.descriptions import CONTACT_NUMBERS, Contact, Track, Wheelset
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP, create_spin_drive
-
-GRAVITY = 9.81
+from exudyn_wheelset.systems.vehicle_system import vehicle_system
+from exudyn_wheelset.vehicles.assemble import add_vehicle
+from exudyn_wheelset.vehicles.builder import VehicleBuilder
+from exudyn_wheelset.vehicles.description import GRAVITY, Vehicle
+from exudyn_wheelset.vehicles.elements import Spring
 
 
 @dataclass(frozen=True)
@@ -71,40 +71,33 @@ class WheelsetOnFrame:
                 f"{weight:.0f} N: give the load of both wheels on the rails, weight included"
             )
 
+    def vehicle(self, name: str = "wheelset") -> Vehicle:
+        """The wheelset as a description of one part of that name."""
+        made = VehicleBuilder(self.name, self.track, Contact(**self.contact))
+        axle = made.wheelset(name, self.wheelset, driven=self.driven)
+        spare = self.axle_load - self.wheelset.mass * GRAVITY
+        spring = Spring(self.suspension.stiffness, self.suspension.damping)
+        for side, sign in (("left", 1.0), ("right", -1.0)):
+            made.connect(
+                spring,
+                axle,
+                made.ground,
+                at=(0.0, sign * self.suspension.half_distance, axle.z),
+                name=f"{side} spring",
+                preload=(0.0, 0.0, 0.5 * spare),
+            )
+        return made.finish()
+
     def create(self, mbs: Any, speed: float, **options: Any) -> WheelsetItems:
-        """Add wheelset, springs and load to `mbs`, in the frame that moves at `speed` [m/s].
+        """Add wheelset and springs, which carry the load, to `mbs`, in the frame that moves at
+        `speed` [m/s].
 
         options: of `create_wheelset` (lateral_offset, yaw, show, name, ...).
         """
-        items = create_wheelset(
-            mbs,
-            self.wheelset,
-            self.track,
-            speed=speed,
-            moving_frame=True,
-            gravity=GRAVITY,
-            **{**self.contact, **options},
-        )
-        ground = mbs.CreateGround()
-        height = mbs.GetNodeParameter(items.node, "referenceCoordinates")[2]
-        half = self.suspension.half_distance
-        spare = self.axle_load - self.wheelset.mass * GRAVITY
-        for side in (half, -half):
-            end = mbs.AddMarker(MarkerBodyRigid(bodyNumber=items.body, localPosition=[0, side, 0]))
-            frame = mbs.AddMarker(
-                MarkerBodyRigid(bodyNumber=ground, localPosition=[0.0, side, height])
-            )
-            mbs.AddObject(
-                ObjectConnectorCartesianSpringDamper(
-                    markerNumbers=[frame, end],
-                    stiffness=list(self.suspension.stiffness),
-                    damping=list(self.suspension.damping),
-                )
-            )
-            mbs.AddLoad(LoadForceVector(markerNumber=end, loadVector=[0.0, 0.0, -0.5 * spare]))
-        if self.driven:
-            create_spin_drive(mbs, items, self.wheelset.radius)
-        return items
+        contact, options = split_contact(self.contact, options)
+        name = options.pop("name", "wheelset")
+        items = add_vehicle(mbs, replace(self, contact=contact).vehicle(name), speed, **options)
+        return items.wheelsets[name]
 
     def build(self, speed: float, **options: Any) -> tuple[Any, Any, WheelsetItems]:
         """Return (SC, mbs, items) of a new, not yet assembled Exudyn system with this wheelset."""
@@ -114,17 +107,8 @@ class WheelsetOnFrame:
 
     def dynamic_system(self, **options: Any) -> ExudynSystem:
         """The model as a system for all analyses; options are those of ExudynSystem."""
-        if self.driven and options.get("settings") is None and options.get("step") is None:
-            options = {**options, "step": DRIVEN_STEP}
-        container, mbs, items = self.build(20.0, sensors=False, show=False)
-        return ExudynSystem(
-            mbs,
-            container,
-            spinning_nodes={items.node: self.wheelset.radius} if self.driven else {},
-            name=self.name,
-            parameters=self.parameters(),
-            **options,
-        )
+        given = {"name": self.name, "parameters": self.parameters(), **options}
+        return vehicle_system(self.vehicle(), **given)
 
     def parameters(self) -> dict[str, Any]:
         """All numbers and names behind the model, for records."""
@@ -142,3 +126,11 @@ class WheelsetOnFrame:
             "contact": dict(self.contact),
             "driven": self.driven,
         }
+
+
+def split_contact(
+    own: dict[str, Any], options: dict[str, Any]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """A vehicle's own contact with what `options` change of it, and the other options."""
+    changes = {name: options[name] for name in options if name in CONTACT_NUMBERS}
+    return {**own, **changes}, {k: v for k, v in options.items() if k not in changes}

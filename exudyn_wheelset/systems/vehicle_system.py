@@ -11,16 +11,16 @@ from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.vehicles.assemble import add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
+from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP
 
 _FIRST_SPEED = 20.0
-# The drive of a driven axle has a rate of some 8e3 1/s, beyond RK44 at ExudynSystem's own step.
-_DRIVEN_STEP = 1.0e-4
 
 
 def vehicle_system(vehicle: Vehicle, **options: Any) -> ExudynSystem:
     """The vehicle alone in an Exudyn model; options are those of ExudynSystem."""
-    if any(axle.driven for axle in vehicle.wheelsets) and options.get("settings") is None:
-        options.setdefault("step", _DRIVEN_STEP)
+    given = options.get("settings") is not None or options.get("step") is not None
+    if any(axle.driven for axle in vehicle.wheelsets) and not given:
+        options["step"] = DRIVEN_STEP
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     items = add_vehicle(mbs, vehicle, _FIRST_SPEED, show=False, sensors=False)

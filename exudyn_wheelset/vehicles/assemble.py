@@ -167,15 +167,17 @@ def add_vehicle(
     speed: float,
     *,
     position: Sequence[float] = (0.0, 0.0),
+    ground_body: int | None = None,
     show: bool = True,
     sensors: bool = True,
     **options: Any,
 ) -> VehicleItems:
     """Add a vehicle to `mbs`, in the frame that moves at `speed` [m/s]; return its item numbers.
 
-    position (x, y) [m]: where the drawing's origin is put; options: of `create_wheelset`
-    (irregularity, rail_elasticity, lateral_offset, ...), for all wheelsets. The vehicle stands in
-    its equilibrium, its wheelsets rolling. Names that the system has already get a number.
+    position (x, y) [m]: where the drawing's origin is put; ground_body: rigid body of `mbs`, with a
+    node of NodeType.RotationRotationVector, that connections to the ground stand on; options: of
+    `create_wheelset` (irregularity, rail_elasticity, lateral_offset, ...), for all wheelsets. The
+    vehicle stands in its equilibrium, its wheelsets rolling. Names that the system has already get a number.
     Raises WheelsetError for a vehicle that cannot stand (see `static_equilibrium`).
     """
     number("speed", speed, "m/s")
@@ -183,7 +185,10 @@ def add_vehicle(
     shift = np.array([position[0], position[1], 0.0])
     name = _unused_name(mbs, vehicle)
     prefix = "" if name == vehicle.name else f"{name} "
-    ground = mbs.CreateGround()
+    if ground_body is None:
+        ground = BodyItems(-1, int(mbs.CreateGround()))
+    else:
+        ground = BodyItems(int(mbs.GetObject(ground_body)["nodeNumber"]), int(ground_body))
     wheelsets: dict[str, WheelsetItems] = {}
     bodies: dict[str, BodyItems] = {}
     radii: dict[int, float] = {}
@@ -223,10 +228,10 @@ def add_vehicle(
         _put_at_rest(mbs, bodies[body.name].node, rest.pose[k], None)
     parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
-    connections = _own_items(mbs, rest, [*parts, BodyItems(-1, int(ground))], shift, len(wheelsets))
+    connections = _own_items(mbs, rest, [*parts, ground], shift, len(wheelsets))
     centres = rest.centres + shift
     moved = Rest(rest.struts, rest.preloads, centres, rest.pose, rest.drawn, rest.axles)
-    connectors, connector, states = _compiled_items(mbs, vehicle, moved, shift, nodes, name)
+    connectors, connector, states = _compiled_items(mbs, vehicle, moved, shift, nodes, ground, name)
     frozen = MappingProxyType
     return VehicleItems(
         name,
@@ -241,16 +246,21 @@ def add_vehicle(
 
 
 def _compiled_items(
-    mbs: Any, vehicle: Vehicle, rest: Rest, shift: Array, nodes: list[int], name: str
+    mbs: Any,
+    vehicle: Vehicle,
+    rest: Rest,
+    shift: Array,
+    nodes: list[int],
+    ground: BodyItems,
+    name: str,
 ) -> tuple[Connectors, int | None, int | None]:
     """Add the objects with all compiled laws; the connectors and the numbers of both objects."""
-    block, states = block_of(
-        vehicle,
-        [strut.moved(shift) for strut in rest.struts],
-        rest.preloads,
-        rest.drawn,
-        rest.centres,
-    )
+    carrier = None
+    if ground.node >= 0:
+        carrier = _reference(mbs, ground.node)
+        nodes = [*nodes, ground.node]
+    struts = [strut.moved(shift) for strut in rest.struts]
+    block, states = block_of(vehicle, struts, rest.preloads, rest.drawn, rest.centres, carrier)
     connectors = Connectors(block, nodes, len(states))
     if not int(block[kernel.H_LAWS]):
         return connectors, None, None
@@ -262,7 +272,8 @@ def _compiled_items(
     )
     if not states:
         return connectors, int(connector), None
-    strokes = strokes_at(block, rest.pose.ravel()).tolist()
+    pose = np.vstack([rest.pose, np.zeros((len(nodes) - len(rest.pose), 6))])
+    strokes = strokes_at(block, pose.ravel()).tolist()
     node = mbs.AddNode(
         NodeGenericODE1(
             name=f"{name} dampers",
@@ -295,7 +306,7 @@ def _own_items(mbs: Any, rest: Rest, parts: list[Any], shift: Array, axles: int)
         ends = []
         for place, point in zip((strut.lower, strut.upper), strut.points, strict=True):
             items = parts[place]
-            centre = np.zeros(3) if items.node < 0 else rest.centres[place] + shift
+            centre = np.zeros(3) if items.node < 0 else _reference(mbs, items.node)
             point = point + shift
             marker = mbs.AddMarker(
                 MarkerBodyRigid(bodyNumber=items.body, localPosition=(point - centre).tolist())
@@ -305,6 +316,11 @@ def _own_items(mbs: Any, rest: Rest, parts: list[Any], shift: Array, axles: int)
             ends.append(End(items.body, int(marker), node, (x, y, z), place < axles))
         made[strut.connection.name] = strut.connection.element.create(mbs, tuple(ends), preload)
     return made
+
+
+def _reference(mbs: Any, node: int) -> Array:
+    """Reference position (3) [m] of a rigid body's node."""
+    return np.array(mbs.GetNodeParameter(node, "referenceCoordinates"), dtype=float)[:3]
 
 
 def _put_at_rest(mbs: Any, node: int, pose: Array, spin: float | None) -> None:

@@ -101,20 +101,28 @@ def _axes(lower: int, upper: int, axles: set[int], ground: int) -> int:
 
 
 def block_of(
-    vehicle: Vehicle, struts: list[Strut], preloads: Array, rest: Array, centres: Array
+    vehicle: Vehicle,
+    struts: list[Strut],
+    preloads: Array,
+    rest: Array,
+    centres: Array,
+    carrier: Array | None = None,
 ) -> tuple[Array, list[Any]]:
     """The kernel's block of a vehicle, and the (connection, first-order state) of each state.
 
     preloads (m, 6): force and moment of each strut on its upper body at rest, track axes;
     rest (n, 6): displacement and rotation vector of the parts at rest against `centres` (n, 3).
+    carrier (3) [m]: centre of a further body that takes the ground's place, as the last one.
     Places in the system are put in later; they are those of the vehicle alone here.
     """
-    count = len(vehicle.parts)
+    if carrier is not None:
+        rest, centres = np.vstack([rest, np.zeros(6)]), np.vstack([centres, carrier])
+    count = len(centres)
     bodies = np.zeros((count, kernel.BODY))
+    bodies[:, kernel.FIRST] = 6 * np.arange(count)
+    bodies[:, kernel.POSITION] = centres
     for k, part in enumerate(vehicle.parts):
-        bodies[k, kernel.FIRST] = 6 * k
         bodies[k, kernel.SPINS] = float(isinstance(part, Axle))
-        bodies[k, kernel.POSITION] = centres[k]
     frames = np.zeros((count + 1, kernel.FRAME))
     kernel.place_frames(rest.ravel(), np.zeros(6 * count), bodies, frames)
     rows: list[Array] = []
