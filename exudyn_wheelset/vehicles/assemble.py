@@ -177,8 +177,8 @@ def add_vehicle(
     position (x, y) [m]: where the drawing's origin is put; ground_body: rigid body of `mbs`, with a
     node of NodeType.RotationRotationVector, that connections to the ground stand on; options: of
     `create_wheelset` (irregularity, rail_elasticity, lateral_offset, ...), for all wheelsets. The
-    vehicle stands in its equilibrium, its wheelsets rolling. Names that the system has already get a number.
-    Raises WheelsetError for a vehicle that cannot stand (see `static_equilibrium`).
+    vehicle stands in its equilibrium, its wheelsets rolling. Names that the system has already
+    get a number. Raises WheelsetError for a vehicle that cannot stand (see `static_equilibrium`).
     """
     number("speed", speed, "m/s")
     rest = find_rest(vehicle)
