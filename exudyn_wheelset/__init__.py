@@ -66,6 +66,7 @@ _PLACES = {
     "nonlinear_critical_speed": "stability.hunting.nonlinear",
     "paper_parameters": "catalogue.lateral_wheelset",
     "piecewise_geometry": "geometry.piecewise",
+    "profile_report": "front.profile_report",
     "rolling_radius_curve": "geometry.rolling_radius",
     "quasi_static_descent": "stability.hunting.descent",
     "register_creep_law": "creep",

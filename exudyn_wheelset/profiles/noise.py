@@ -82,7 +82,7 @@ def noise_by_spacing(points: FloatArray) -> dict[int, float]:
     is correlated (an instrument that smooths, a roughness of the surface).
     """
     spacing = float(np.median(np.hypot(*np.diff(points, axis=0).T)))
-    strides = [1] + [k for k in (2, 4) if 2 * k * spacing <= 2.0 * _REACH]
+    strides = [1] + [k for k in (2, 4) if 2 * k * spacing <= 2.5 * _REACH]
     return {k: normal_noise(points, k) for k in strides}
 
 

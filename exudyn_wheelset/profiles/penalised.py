@@ -17,10 +17,11 @@ Y.-J. Kim and C. Gu, J. Royal Statistical Society B 66, 2004, 337-356), so it ne
 
 Instruments that smooth, and encoders, leave errors that are alike over several points; to cross
 validation they look like shape. With residuals of autocorrelation rho_k, n points are worth
-n/(1 + 2 sum rho_k) independent ones, and that sum takes gamma's place where it is larger (N. S.
-Altman, "Kernel smoothing of data with correlated errors", J. American Statistical Association 85,
-1990, 749-759). It is found on the residuals of a pilot fit with gamma = 3. Real waviness shorter
-than about 5 mm goes with it.
+n/(1 + 2 sum rho_k) independent ones, and that sum takes gamma's place where it is larger, up to
+3.5, beyond which treads of measured wheels were moved by more than their errors (N. S. Altman,
+"Kernel smoothing of data with correlated errors", J. American Statistical Association 85, 1990,
+749-759). It is found on the residuals of a pilot fit with gamma = 3. Real waviness of such lengths
+goes with it; errors alike over more than about 1.5 mm stay, for they cannot be told from shape.
 
 A tread's curvature hardly changes and a flange root's does: one lambda for both would leave noise
 on the one or round off the other. So w_k falls with the cube of the rms of Delta^3 c within 4 mm,
@@ -53,7 +54,7 @@ _POWER = 3.0
 _REACH = 4.0
 _LEAST_ROUGHNESS = 1e-2
 _PILOT_GAMMA = 3.0
-_MOST_GAMMA = 6.0
+_MOST_GAMMA = 3.5
 _LONGEST_CORRELATION = 3.0
 _DIED_AWAY = 0.1
 _SCALE = 1e-3
