@@ -10,6 +10,8 @@ both sides agree (section 2.2 of the paper; a steep flange may agree at several)
 from __future__ import annotations
 
 import math
+import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from exudyn_wheelset import Profile, Track, Wheelset, contact_geometry, piecewis
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.layout import side_of
 from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.errors import WheelsetWarning
 from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 from exudyn_wheelset.geometry.piecewise import TOLERANCE_FACTORS, geometry_columns
 from exudyn_wheelset.profiles import load_profile
@@ -114,6 +117,24 @@ def test_contact_angle_of_figure_3_stays_below_that_of_the_flange() -> None:
     angles = np.degrees(pieces(np.linspace(-half_range, half_range, 50001))[:, [4, 8]])
     assert angles.max() < 70.6
     assert angles.min() > 0.0
+
+
+@pytest.mark.parametrize("noise", [1.0e-7, 1.0e-5])
+def test_noise_is_warned_about_and_not_chased(noise) -> None:
+    """On points 0.2 mm apart: the geometry at the searched points remains what the search says."""
+    new = load_profile("S1002")
+    y = np.linspace(new.y[0], new.y[-1], 700)
+    z = np.interp(y, new.y, new.z) + noise * np.random.default_rng(0).standard_normal(len(y))
+    wheelset, track, _ = pair("S1002", "UIC60")
+    wheelset = replace(wheelset, wheel=Profile("noisy", "wheel", y, z))
+    with pytest.warns(WheelsetWarning, match="noisy"):
+        pieces = piecewise_geometry(wheelset, track, 0.008, representation="polynomial")
+    searched = np.linspace(-0.008, 0.008, 321)[1:-1:20]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        exact = geometry_columns(contact_geometry(wheelset, track, searched))
+    np.testing.assert_allclose(pieces(searched), exact, atol=1e-9)
+    assert np.any(pieces.residuals > TOLERANCE * TOLERANCE_FACTORS)
 
 
 def points_of(table: np.ndarray, curve, count: int) -> tuple[np.ndarray, np.ndarray]:
