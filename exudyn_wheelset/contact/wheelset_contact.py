@@ -32,8 +32,10 @@ from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.results.brief import brief
 
 
+@brief
 @dataclass(frozen=True)
 class ContactForces:
     """Forces of the rails on a wheelset, track frame.

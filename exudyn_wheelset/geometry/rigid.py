@@ -29,6 +29,7 @@ from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 from exudyn_wheelset.geometry.roughness import warn_if_rough
+from exudyn_wheelset.results.brief import brief
 
 METHODS = ("root", "nelder-mead")
 _ROLL_RANGE = 0.12
@@ -44,6 +45,7 @@ _LEAST_ROLL_STEP = 5.0e-5
 _SIDE_WIDTH = 7
 
 
+@brief
 @dataclass(frozen=True)
 class ContactSide:
     """Contact points of one side, arrays of the shape of y; positions towards the field side.
@@ -65,6 +67,7 @@ class ContactSide:
     second_gap: np.ndarray
 
 
+@brief
 @dataclass(frozen=True)
 class ContactGeometry:
     """Rigid contact of a wheelset over its lateral shift.

@@ -24,6 +24,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.systems.described import described
 from exudyn_wheelset.systems.exudyn_layout import lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_wheelsets import (
@@ -282,6 +283,10 @@ class ExudynSystem(DynamicSystem):
                 outcome,
             )
         return samples
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Exudyn's model cannot be pickled: a stored result keeps its names.
+        return described(self).__reduce__()
 
     def measures(self) -> dict[str, Any]:
         record = super().measures()

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.rest import accelerations, find_rest
 
@@ -27,6 +28,7 @@ class WheelLoads(NamedTuple):
     right: float
 
 
+@brief
 @dataclass(frozen=True)
 class StaticEquilibrium:
     """A vehicle at rest against the track while its wheelsets roll straight ahead.

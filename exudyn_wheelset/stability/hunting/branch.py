@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 KIND = "branch of limit cycles"
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Fold(float):
     """A speed at which a branch of limit cycles turns back; a float, the speed itself [m/s].
@@ -47,6 +49,7 @@ class Fold(float):
         return super().__new__(cls, speed)
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class StabilityChange(float):
     """A speed between folds at which stability changes; a float, the speed itself [m/s].
@@ -64,6 +67,7 @@ class StabilityChange(float):
         return super().__new__(cls, speed)
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Branch:
     """Limit cycles in the order in which they lie on their branch.

@@ -26,6 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.branch import NamedColumns
@@ -37,6 +38,7 @@ from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 KIND = "quasi-static descent"
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Descent:
     """Stable hunting motion over falling speed, down to the jump.

@@ -21,6 +21,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
@@ -36,6 +37,7 @@ Fate = Literal["hunts", "dies out", "lost contact"]
 GROWTH = 0.15
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class CriticalDisturbances:
     """Smallest disturbance that leads to hunting, over speed.

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
@@ -38,6 +39,7 @@ class NoLimitCycleError(AnalysisError):
         self.branch = branch
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class NonlinearCriticalSpeed(float):
     """The lowest speed of stable hunting; a float, the speed itself [m/s].

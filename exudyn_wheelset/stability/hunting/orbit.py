@@ -18,6 +18,7 @@ from math import comb
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.systems.system import Array
 
 DEGREE = 4
@@ -63,6 +64,7 @@ def basis_of(degree: int, stiff: bool = False) -> Basis:
     return Basis(points, nodes, weights, values, slopes, signs)
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Orbit:
     """One periodic motion as a piecewise polynomial.

@@ -20,6 +20,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
 from exudyn_wheelset.stability.linear.linearisation import linearised
 from exudyn_wheelset.stability.linear.modes import NAMELESS, mode_name
@@ -34,6 +35,7 @@ from exudyn_wheelset.stability.linear.spectra import (
 from exudyn_wheelset.systems.system import Array, as_system
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class CriticalPoint(float):
     """A speed at which the steady run loses or gains stability; it is a float, the speed itself.

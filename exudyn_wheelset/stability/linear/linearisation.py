@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
 from exudyn_wheelset.stability.linear.modes import (
     HUNTING_SHARE,
@@ -28,6 +29,7 @@ from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, osci
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class Linearisation:
     """Equations linearised about the equilibrium at one speed.
@@ -77,6 +79,7 @@ class Linearisation:
         )
 
 
+@brief
 @dataclass(frozen=True, eq=False)
 class RootLocus:
     """Eigenvalues over speed, each column one root followed by nearness.
