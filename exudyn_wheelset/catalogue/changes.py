@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
-from exudyn_wheelset.checking import unknown
+from exudyn_wheelset.checking import number, unknown
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
@@ -50,8 +50,8 @@ class Changes:
     def __post_init__(self) -> None:
         if self.wheel is not None and self.conicity is not None:
             raise WheelsetError("give a wheel or a conicity, not both")
-        if self.friction is not None and not 0.0 < self.friction <= 1.0:
-            raise WheelsetError(f"friction = {self.friction!r}: give a coefficient from 0 to 1")
+        if self.friction is not None:
+            number("friction", self.friction, "-", 0.0, 1.0)
 
     def tread(self, own: str) -> Profile:
         """The wheel profile to take where the vehicle's own is `own`."""

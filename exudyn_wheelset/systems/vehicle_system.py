@@ -9,14 +9,20 @@ import exudyn as exu
 
 from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.vehicles.assemble import add_vehicle
+from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP
 
 _FIRST_SPEED = 20.0
 
 
-def vehicle_system(vehicle: Vehicle, **options: Any) -> ExudynSystem:
+class VehicleSystem(ExudynSystem):
+    """The system of a vehicle, with the item numbers of its parts by name."""
+
+    vehicle_items: VehicleItems
+
+
+def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
     """The vehicle alone in an Exudyn model; options are those of ExudynSystem."""
     given = options.get("settings") is not None or options.get("step") is not None
     if any(axle.driven for axle in vehicle.wheelsets) and not given:
@@ -27,7 +33,9 @@ def vehicle_system(vehicle: Vehicle, **options: Any) -> ExudynSystem:
     options.setdefault("spinning_nodes", dict(items.radii))
     options.setdefault("name", vehicle.name)
     options.setdefault("parameters", numbers_of(vehicle))
-    return ExudynSystem(mbs, container, **options)
+    system = VehicleSystem(mbs, container, **options)
+    system.vehicle_items = items
+    return system
 
 
 def numbers_of(description: Any) -> Any:

@@ -92,7 +92,10 @@ def rest_on_rails(
         pose = np.array([touching - penetration, 0.0, 0.0, radius])
         return float(rail_wrench(wheelset, track, contact, pose)[0][2]) - weight
 
-    highest = 1.0e-4
+    # Where one wheel is the larger, it presses alone before both touch.
+    lowest, highest = 0.0, 1.0e-4
+    while excess(lowest) > 0.0:
+        lowest = 2.0 * lowest - 1.0e-4
     while excess(highest) < 0.0:
         highest *= 2.0
         if highest > _DEEPEST:
@@ -100,7 +103,7 @@ def rest_on_rails(
                 f"the rails do not carry {weight:.0f} N of one wheelset: check loads and "
                 "shear_modulus"
             )
-    pose = np.array([touching - brentq(excess, 0.0, highest, xtol=1e-14), 0.0, 0.0, radius])
+    pose = np.array([touching - brentq(excess, lowest, highest, xtol=1e-14), 0.0, 0.0, radius])
     wrench, _ = rail_wrench(wheelset, track, contact, pose)
     scale = np.array([weight, weight * half, weight, weight * radius])
     asked = np.array([weight, tipping, 0.0, 0.0])
