@@ -178,7 +178,10 @@ class Branch:
         speed, index = min(candidates)
         what = "the end of the branch" if index in (0, len(self) - 1) else "a point of the branch"
         if index == 0 and self.hopf is not None:
-            speed, what = min(speed, self.hopf[0]), "the Hopf point, which is supercritical"
+            if speed > self.hopf[0] * (1.0 - 2e-3) - 1e-9:
+                speed, what = min(speed, self.hopf[0]), "the Hopf point, which is supercritical"
+            else:
+                what = "the first orbit of the branch, below the Hopf point it starts from"
         for fold in self.folds:
             beside = self.stable[max(0, fold.index - 1) : fold.index + 2]
             if fold.side == "lowest" and np.any(beside) and fold <= speed:

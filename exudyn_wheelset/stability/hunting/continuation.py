@@ -45,6 +45,9 @@ from exudyn_wheelset.stability.hunting.folds import (
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_mesh
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 
+# The first orbit's speed is to lie this near to the Hopf point's, relative to it.
+FIRST_SPEED = 2e-3
+
 
 @dataclass(frozen=True, eq=False)
 class Point:
@@ -66,7 +69,8 @@ def hopf_start(
 ) -> tuple[Orbit, Condensed, Direction]:
     """First small orbit off a Hopf point, the equations near it and the tangent of growth.
 
-    The amplitude is halved until Newton converges near the point. Raises OrbitError.
+    The amplitude is halved until Newton converges near the point, and further while the speed is
+    not near the point's, so that a fold close to it is not stepped over. Raises OrbitError.
     """
     system = equations.system
     frequency = abs(hopf.eigenvalue.imag)
@@ -83,6 +87,7 @@ def hopf_start(
     mesh = np.linspace(0.0, 1.0, intervals + 1)
     amplitude = settings.first_amplitude
     failure = "Newton converged to another motion"
+    good: tuple[Orbit, Condensed, Direction] | None = None
     for _ in range(10):
         states = hopf.state + amplitude * cycle
         states[-1] = states[0] if mirror is None else mirror * states[0]
@@ -105,8 +110,12 @@ def hopf_start(
             near = abs(orbit.speed - hopf.speed) < 0.03 * max(1.0, abs(hopf.speed))
             kept = 0.3 < equations.size(orbit) / equations.size(guess) < 3.0
             if near and kept and 0.8 < orbit.period / guess.period < 1.25:
-                return orbit, found.condensed, tangent
+                good = orbit, found.condensed, tangent
+                if abs(orbit.speed - hopf.speed) < FIRST_SPEED * max(1.0, abs(hopf.speed)):
+                    return good
         amplitude *= 0.5
+    if good is not None:
+        return good
     raise OrbitError(
         f"no small orbit was found next to the Hopf point at {float(hopf.speed):.4f} m/s: {failure}"
     )

@@ -4,11 +4,17 @@ It is the lowest speed with a stable limit cycle: the fold of the branch where t
 speed is a subcritical Hopf point, the Hopf point itself where it is supercritical. Below it every
 disturbance dies out. Two methods give it: `continuation` follows the limit cycles through the
 fold, `descent` simulates down to the jump; each result says which made the number and how.
+
+Cycles may coexist on branches that no Hopf point leads to (a small one on the tread and a large
+one at the flange). So what continuation finds is checked by a coarse descent from a large
+disturbance: where that still hunts below the answer, its motion is made an orbit, the branch
+through it is followed, and the lowest speed of all branches is the answer. Vehicles with several
+trucks have several Hopf points close together and beat when all hunt; descent is their default.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,12 +29,20 @@ from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_desc
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import Settling
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
-from exudyn_wheelset.systems.system import as_system
+from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
+from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
 Method = Literal["continuation", "descent"]
 
 # Ranges of speed [m/s] searched in turn for the Hopf point if none is given.
 SEARCH = ((5.0, 60.0), (60.0, 120.0), (120.0, 240.0), (240.0, 480.0))
+
+
+# A large disturbance: the hunting mode with this many scales (millimetres) of lateral displacement.
+LARGE = 5.0
+# The descent that checks a continuation takes steps of this share of the Hopf point's speed and
+# adds no more than so many branches.
+CHECK_STEP, MOST_BRANCHES = 0.04, 2
 
 
 class NoLimitCycleError(AnalysisError):
@@ -46,10 +60,13 @@ class NonlinearCriticalSpeed(float):
 
     speed     [m/s]
     method    "continuation" or "descent"
-    how       one sentence on what the number is and what it was found from
+    how       what the number is, what it was found from and how it was checked
     bracket   speeds [m/s] between which it lies by the method
     hopf      the Hopf point that the search began with
     branch    the Branch or Descent behind it
+    by_truck  speed [m/s] at which each truck stops hunting, by descent; the trucks that hunt at the
+              answer, by continuation; empty for a vehicle without trucks
+    others    branches looked at beside it
     """
 
     speed: float
@@ -58,6 +75,8 @@ class NonlinearCriticalSpeed(float):
     bracket: tuple[float, float]
     hopf: CriticalPoint
     branch: Branch | Descent
+    by_truck: dict[str, float] = field(default_factory=dict)
+    others: tuple[Branch, ...] = ()
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> NonlinearCriticalSpeed:
         return super().__new__(cls, speed)
@@ -65,11 +84,12 @@ class NonlinearCriticalSpeed(float):
 
 def nonlinear_critical_speed(
     vehicle: Any,
-    method: Method = "continuation",
+    method: Method | None = None,
     *,
     low: float | None = None,
     high: float | None = None,
     hopf: CriticalPoint | None = None,
+    check: bool = True,
     step: float | None = None,
     tolerance: float = 0.02,
     watch: str | int | None = None,
@@ -80,9 +100,11 @@ def nonlinear_critical_speed(
 ) -> NonlinearCriticalSpeed:
     """Lowest speed [m/s] at which the vehicle has a stable limit cycle.
 
-    method      "continuation" or "descent"
+    method      "continuation" or "descent"; default descent for a vehicle with several trucks
     low, high   range of speeds looked at [m/s]; default 0.4 and 1.1 times the Hopf point's
     hopf        where to begin; default the lowest speed at which a pair loses stability
+    check       of the continuation: whether hunting is looked for below its answer, from a large
+                disturbance
     settings    of the continuation
     step, tolerance, watch, settling, state_file   of the descent: steps of the speed [m/s]
                 (default 1 % of the Hopf point's), width of the final bracket [m/s], ...
@@ -91,31 +113,23 @@ def nonlinear_critical_speed(
     AnalysisError if there is no Hopf point.
     """
     system = as_system(vehicle)
+    if method is None:
+        method = "descent" if len(system.trucks) > 1 else "continuation"
     if method not in ("continuation", "descent"):
         raise AnalysisError(f"method = {method!r} is not one of 'continuation', 'descent'")
     if hopf is None:
         hopf = _first_hopf(system, low, high)
     low = 0.4 * hopf.speed if low is None else float(low)
     high = 1.1 * hopf.speed if high is None else float(high)
-    linear = f"the linear critical speed is {hopf.speed:.4f} m/s at {hopf.frequency:.3f} Hz"
     if method == "continuation":
-        branch = limit_cycles(system, hopf, (low, high), settings=settings, progress=progress)
-        try:
-            speed, what = branch.lowest_stable()
-        except AnalysisError as error:
-            raise NoLimitCycleError(str(error), branch) from error
-        how = (
-            f"{speed:.4f} m/s is {what}, on a branch of {len(branch)} periodic orbits followed by "
-            f"collocation and pseudo-arclength continuation from the Hopf point; {linear}; the "
-            f"branch ends because {branch.reason}"
-        )
-        return NonlinearCriticalSpeed(speed, method, how, (speed, speed), hopf, branch)
+        return _by_continuation(system, hopf, (low, high), check, settings, progress)
     descent = quasi_static_descent(
         system,
         high,
         low,
         step=0.01 * hopf.speed if step is None else step,
         tolerance=tolerance,
+        disturbance=LARGE,
         watch=watch,
         settling=settling,
         state_file=state_file,
@@ -131,9 +145,117 @@ def nonlinear_critical_speed(
     how = (
         f"{descent.speed:.4f} m/s is the middle of the interval from {lower:.4f} m/s, where "
         f"hunting died out, to {upper:.4f} m/s, where it settled, by quasi-static descent from "
-        f"{high:g} m/s ({descent.time:.0f} s of motion simulated); {linear}"
+        f"{high:g} m/s ({descent.time:.0f} s of motion simulated); {_linear(hopf)}"
     )
-    return NonlinearCriticalSpeed(descent.speed, method, how, descent.bracket, hopf, descent)
+    by_truck = {name: speed for name, speed in descent.by_truck.items() if name}
+    return NonlinearCriticalSpeed(
+        descent.speed, method, how, descent.bracket, hopf, descent, by_truck
+    )
+
+
+def _by_continuation(
+    system: DynamicSystem,
+    hopf: CriticalPoint,
+    speeds: tuple[float, float],
+    check: bool,
+    settings: ContinuationSettings | None,
+    progress: bool,
+) -> NonlinearCriticalSpeed:
+    branches = [limit_cycles(system, hopf, speeds, settings=settings, progress=progress)]
+    remarks = []
+    if check:
+        for _ in range(MOST_BRANCHES):
+            remark, start = _hunting_below(system, hopf, _lowest(branches), speeds)
+            remarks.append(remark)
+            if start is None:
+                break
+            state, speed = start
+            try:
+                branches.append(
+                    limit_cycles(system, state, speeds, start_speed=speed, settings=settings)
+                )
+            except AnalysisError as error:
+                remarks.append(f"that motion could not be made an orbit: {error}")
+                break
+    found = _lowest(branches)
+    if found is None:
+        message = f"no limit cycle is stable for certain; {branches[0].reason}"
+        raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
+    speed, what, branch = found
+    place = "from the Hopf point" if branch is branches[0] else "from a motion that hunts"
+    how = (
+        f"{speed:.4f} m/s is {what}, on a branch of {len(branch)} periodic orbits followed by "
+        f"collocation and pseudo-arclength continuation {place}; {_linear(hopf)}; the branch ends "
+        f"because {branch.reason}"
+    )
+    if branch.uncertain.any():
+        how += f"; of {np.count_nonzero(branch.uncertain)} orbits the stability is uncertain"
+    return NonlinearCriticalSpeed(
+        speed,
+        "continuation",
+        "; ".join([how, *remarks]),
+        (speed, speed),
+        hopf,
+        branch,
+        dict.fromkeys(_trucks_at(system, branch, speed), speed),
+        tuple(other for other in branches if other is not branch),
+    )
+
+
+def _lowest(branches: list[Branch]) -> tuple[float, str, Branch] | None:
+    """Lowest speed with a stable cycle over branches, what bounds it, and its branch."""
+    found = []
+    for branch in branches:
+        try:
+            found.append((*branch.lowest_stable(), branch))
+        except AnalysisError:
+            continue
+    return min(found, key=lambda entry: entry[0]) if found else None
+
+
+def _hunting_below(
+    system: DynamicSystem,
+    hopf: CriticalPoint,
+    found: tuple[float, str, Branch] | None,
+    speeds: tuple[float, float],
+) -> tuple[str, tuple[Array, float] | None]:
+    """What a coarse descent from a large disturbance says of hunting below what was found.
+
+    Returns a sentence, and the state and speed [m/s] of a motion that hunts there, if any.
+    """
+    low, high = speeds
+    answer = found[0] if found else high
+    coarse = CHECK_STEP * max(abs(hopf.speed), high - low)
+    begin = min(high, max(hopf.speed, found[0] if found else low) + 0.5 * coarse)
+    try:
+        descent = quasi_static_descent(
+            system,
+            begin,
+            max(low, answer - 6.0 * coarse),
+            step=coarse,
+            tolerance=coarse,
+            disturbance=LARGE,
+            settling=Settling(tolerance=5e-3, cycles=150),
+        )
+    except AnalysisError:
+        return f"checked: no hunting at {begin:.4g} m/s from a large disturbance", None
+    lowest = float(np.min(descent.speeds))
+    if found is not None and lowest > answer - 0.25 * coarse:
+        return f"checked by descent from a large disturbance at {begin:.4g} m/s: none lower", None
+    state = descent.states[int(np.argmin(descent.speeds))]
+    return f"a motion from a large disturbance hunts at {lowest:.4g} m/s", (state, lowest)
+
+
+def _trucks_at(system: DynamicSystem, branch: Branch, speed: float) -> tuple[str, ...]:
+    """Trucks that hunt on the cycle of a branch nearest to a speed [m/s]."""
+    orbit = branch.orbits[int(np.argmin(np.abs(branch.speed - speed)))]
+    moving = truck_motion(system, orbit.half_peak_to_peak())
+    largest = max(moving.values(), default=0.0)
+    return tuple(name for name, size in moving.items() if size >= ALONE * largest)
+
+
+def _linear(hopf: CriticalPoint) -> str:
+    return f"the linear critical speed is {hopf.speed:.4f} m/s at {hopf.frequency:.3f} Hz"
 
 
 def _first_hopf(system: Any, low: float | None, high: float | None) -> CriticalPoint:

@@ -8,8 +8,9 @@ r = (A3 - A2)/(A2 - A1), the geometric series puts the rest of the way at (A3 - 
 - settled     if that rest is below `tolerance` A3 and the last step is small too, or if the means
               go up and down (trucks that hunt at different frequencies beat) and neither their
               average nor their range over BEAT blocks differs from that of the BEAT blocks before;
-- dying out   if A3 is below `rest` (and a fifth of where it began), if log A falls steadily and A
-              is half of its largest, or if log A falls ever faster over eight blocks;
+- dying out   if A3 is below `rest` (and a fifth of where it began), or if A is below FAR_DOWN of
+              its largest and log A falls steadily, or ever faster over eight blocks: a motion
+              that leaves a large cycle may yet settle on a small one;
 - undecided   otherwise, e.g. in the slow passage past a fold, where r is about 1.
 
 The vehicle has settled when every truck has settled or died out, one of them hunting, and it has
@@ -33,6 +34,9 @@ TREND = 8
 # Blocks over which a beating amplitude is averaged, and what its averages and ranges may differ by.
 BEAT = 10
 BEAT_MEAN, BEAT_RANGE = 0.01, 0.2
+# Share of the largest amplitude below which no smaller cycle is expected: wheelsets on S1002 have
+# cycles of 2.4 and 0.06 mm at one speed.
+FAR_DOWN = 0.01
 # A truck below the amplitude of rest and this share of another's does not hunt by itself.
 SHAKEN = 0.1
 
@@ -138,8 +142,11 @@ class WatchedMotion:
         """Simulate until decided, at most the number of cycles allowed."""
         while True:
             verdict = self.advance()
-            if verdict is not Ending.UNDECIDED or self.cycles >= self.settling.cycles:
+            if verdict is not Ending.UNDECIDED:
                 return verdict
+            if self.cycles >= self.settling.cycles:
+                fading = all(_falls_away(means) for means in self.by_truck.values())
+                return Ending.DIED_OUT if fading else verdict
 
     def truck_amplitudes(self) -> dict[str, float]:
         """Mean amplitude [m or rad] of each truck, over the beat if it beats."""
@@ -185,7 +192,7 @@ def _judge(means: list[float], rest: float, tolerance: float) -> Ending:
         return Ending.SETTLED
     logs = np.diff(np.log(means[-4:]))
     steady = np.all(logs < -0.02) and np.ptp(logs) < 0.05 * abs(logs[2])
-    if (steady and fourth < 0.5 * max(means)) or _falls_away(means):
+    if fourth < FAR_DOWN * max(means) and (steady or _falls_away(means)):
         return Ending.DIED_OUT
     return Ending.UNDECIDED
 
