@@ -30,6 +30,13 @@ def csv(profile):
     return "y [mm];z [mm]\n" + "\n".join(rows).replace(".", ",")
 
 
+def numbered(profile):
+    return "\n".join(
+        f"{i};{1e3 * y:.5f};{1e3 * z:.5f}".replace(".", ",")
+        for i, (y, z) in enumerate(zip(profile.y, profile.z, strict=True))
+    )
+
+
 def template(profile):
     x, y = -1e3 * profile.y[::-1], 1e3 * profile.z[::-1]
     pieces = [
@@ -53,6 +60,12 @@ FILES = [
     ("l.wheel", gensys(WHEEL)),
     ("m.rail", gensys(RAIL)),
     ("n.mpt", template(RAIL)),
+    (
+        "o.whl",
+        "#MINIWHEELPROF\ncar\n 31.2 28.1 10.5\n(Sd/Sh/qR)\n\n" + miniprof(WHEEL).split("\n\n")[1],
+    ),
+    ("p.csv", "Calipri;1\nDatum;2021-03-04\nEinheit;mm\nNr;Quer;Höhe\n" + numbered(WHEEL)),
+    ("q.txt", f"left\n{gensys(WHEEL)}\nright\n{gensys(WHEEL)}\n"),
 ]
 NASTY = [
     *("nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "1e999", "9" * 30, "0", "-0.0"),
@@ -132,7 +145,7 @@ def options_of(chance):
     if chance.random() < 0.2:
         options["unit"] = chance.choice(("mm", "m", "cm", "inch"))
     if chance.random() < 0.2:
-        options["smoothing"] = chance.choice((1e-9, 1e-6, 1e-4, 1e-3, "auto", "auto"))
+        options["smoothing"] = chance.choice((1e-9, 1e-6, 1e-4, 1e-3, "auto"))
     if chance.random() < 0.2:
         options["outlier_tolerance"] = chance.choice((1e-12, 1e-6, 1e-4, 1.0))
     if chance.random() < 0.2:
