@@ -48,8 +48,12 @@ def _displacement_of_a_rectangle(x, y, dx, dy):
     return corner(right, up) - corner(left, up) - corner(right, down) + corner(left, down)
 
 
-def half_space_contact(gap, shear_modulus=82e9, poisson=0.28, along=64, across=128):
-    """Force (normal sum, y, z) [N] and peak pressure [Pa] of a gap from `gap_of_left_wheel`."""
+def half_space_contact(gap, shear_modulus=82e9, poisson=0.28, along=64, across=128, steeper=0.0):
+    """Contact of a gap from `gap_of_left_wheel`.
+
+    Returns the load, its force (y, z) [N], the peak pressure [Pa], and the load where the contact
+    angle is greater than `steeper` [rad].
+    """
     arc, penetration = gap[:2]
     inside = arc[penetration > 0.0]
     ds = (inside[-1] - inside[0] + 6e-5) / across
@@ -93,4 +97,5 @@ def half_space_contact(gap, shear_modulus=82e9, poisson=0.28, along=64, across=1
     else:
         raise AssertionError("the half-space solution has not converged")
     load = pressure.sum(0) * dx * ds
-    return load.sum(), load @ ny, load @ nz, pressure.max()
+    beyond = np.arctan2(-ny, nz) > steeper
+    return load.sum(), load @ ny, load @ nz, pressure.max(), load[beyond].sum()

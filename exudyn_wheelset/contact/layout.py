@@ -109,11 +109,12 @@ CANDIDATE = _record(
 # Moments of a zone, as in the named tuple Zone.
 ZONE = _numbers("total", "arc", "foot", "normal_y", "normal_z")
 # arc: wheel arc length of the maximum, foot: rail arc length [m]; curvature: 2 B [1/m]; left,
-# right: ends of the territory in wheel arc; separation from the next lobe, 0 to 1; own: moments
-# of its zone, merged: as a part of a merged patch whose greatest penetration is merged_depth.
+# right: ends of the territory in wheel arc; separation from the next lobe, 0 to 1; sunk [m]: in
+# the fields of the others; own: moments of its zone, merged: as a part of a merged patch whose
+# greatest penetration is merged_depth.
 LOBE = _record(
     ("arc", "f8"), ("foot", "f8"), ("penetration", "f8"), ("curvature", "f8"),
-    ("left", "f8"), ("right", "f8"), ("separation", "f8"),
+    ("left", "f8"), ("right", "f8"), ("separation", "f8"), ("sunk", "f8"),
     ("own", ZONE), ("merged", ZONE), ("merged_depth", "f8"),
 )  # fmt: skip
 # Place in wheel and rail arc, width, half length along x, penetration along the normal [m]; peak

@@ -12,6 +12,12 @@ ellipse and position are blended alike (a share of a merged patch stands at that
 has its share of that patch's creep force). So a lobe enters and leaves without a step in force.
 Two lobes that have merged wholly (s = 0) are one patch.
 
+Patches of one wheel sink in each other's field: far from a load N the half-space has sunk by
+    u = (1 - nu) N/(pi G r)
+(both bodies; Boussinesq), r the distance, and of delta only delta - u is left for the patch itself.
+At a fixed curvature N ~ delta^1.5, a, b ~ delta^0.5. u counts with the separation of the lobes:
+what has merged is one patch already.
+
 Frame: track frame, left side. Records LOBE, SHARE, PATCH and the named tuples: layout.py.
 """
 
@@ -33,6 +39,9 @@ from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
 from exudyn_wheelset.contact.strip_patches import strip_patches
 from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_force, zone_integrals
+
+# Sinking in each other's fields converges by a factor of some 0.1 a sweep.
+_SWEEPS = 12
 
 
 @compiled(inline="always")
@@ -151,18 +160,90 @@ def _set_ellipse(record, ellipse):
 
 
 @compiled
+def _own_ellipse(table, side, lobe, normal, material, axle):
+    """Ellipse of a lobe alone by the model of that number; its zone has been filled."""
+    zone = lobe.own
+    depth = lobe.penetration
+    _, nz = _unit(zone.normal_y, zone.normal_z)
+    _, _, _, _, _, radius, _, _ = wheel_point(table, side, zone.arc / zone.total, axle)
+    along = 0.5 * nz / radius
+    lateral = _mean_half_curvature(zone.total, depth)
+    if normal == HERTZ_LOCAL:
+        lateral = 0.5 * max(lobe.curvature, 1.0e-3)
+    elif normal == VIRTUAL_PENETRATION:
+        first, second = _integrals(table, side, lobe, depth, lobe.arc, along, axle)
+        return _virtual_ellipse(first, second, lateral, depth, along, material)
+    return _hertz_ellipse(along, lateral, depth, material)
+
+
+@compiled
+def _sink_in_each_other(lobes, shares, count, material):
+    """Take the lobes' own ellipses back to what is left of their penetrations.
+
+    A fixed point, from above and below in turn: a neighbour's sinking changes by less than a third
+    of what its load's does.
+    """
+    compliance = (1.0 - material.poisson) / (math.pi * material.shear_modulus)
+    for _ in range(_SWEEPS):
+        change = 0.0
+        for k in range(count):
+            sunk = 0.0
+            weight = 1.0
+            for j in range(k + 1, count):
+                weight *= lobes[j - 1].separation
+                sunk += weight * _field(lobes, shares, k, j)
+            weight = 1.0
+            for j in range(k - 1, -1, -1):
+                weight *= lobes[j].separation
+                sunk += weight * _field(lobes, shares, k, j)
+            sunk = min(compliance * sunk, lobes[k].penetration)
+            change = max(change, abs(sunk - lobes[k].sunk))
+            lobes[k].sunk = sunk
+        if change < 1.0e-13:
+            break
+    for k in range(count):
+        own = shares[k].own
+        left = 1.0 - lobes[k].sunk / lobes[k].penetration
+        root = math.sqrt(left)
+        own.force *= left * root
+        own.a *= root
+        own.b *= root
+
+
+@compiled(inline="always")
+def _field(lobes, shares, k, j):
+    """Load [N] of lobe j as it is sunk now, over its distance from lobe k [m]."""
+    if lobes[k].own.total <= 0.0 or lobes[j].own.total <= 0.0:
+        return 0.0
+    left = 1.0 - lobes[j].sunk / lobes[j].penetration
+    force = shares[j].own.force * left * math.sqrt(left)
+    distance = lobes[k].own.arc / lobes[k].own.total - lobes[j].own.arc / lobes[j].own.total
+    return force / abs(distance)
+
+
+@compiled
 def side_patches(table, hand, axle, parameters, work, patches):
     """Normal contact of one side: fills patches with geometry and elastic force; their count."""
     side = side_of(table, hand)
     if parameters.normal == STRIPS:
         return strip_patches(table, side, axle, parameters, work, patches)
     lobes = work.lobes
+    shares = work.shares
     material = Material(parameters.shear_modulus, parameters.poisson)
     count = find_lobes(table, side, axle, work)
     _fill_own_zones(table, side, lobes, count, axle)
-    virtual = parameters.normal == VIRTUAL_PENETRATION
-    local = parameters.normal == HERTZ_LOCAL
+    normal = int(parameters.normal)
+    virtual = normal == VIRTUAL_PENETRATION
+    local = normal == HERTZ_LOCAL
     one_patch = not local and count == 2 and lobes[0].separation == 0.0
+    for k in range(count):
+        lobes[k].sunk = 0.0
+        ellipse = Ellipse(0.0, 0.0, 0.0)
+        if lobes[k].own.total > 0.0:
+            ellipse = _own_ellipse(table, side, lobes[k], normal, material, axle)
+        _set_ellipse(shares[k].own, ellipse)
+    if count > 1 and not one_patch:
+        _sink_in_each_other(lobes, shares, count, material)
     kept = 0
     for k in range(count):
         lobe = lobes[k]
@@ -175,22 +256,14 @@ def side_patches(table, hand, axle, parameters, work, patches):
         depth = lobe.penetration
         place = zone.arc / zone.total
         at = zone.foot / zone.total
-        ny, nz = _unit(zone.normal_y, zone.normal_z)
-        _, _, _, _, _, radius, _, _ = wheel_point(table, side, place, axle)
-        along = 0.5 * nz / radius
-        lateral = _mean_half_curvature(zone.total, depth)
         if local:
             place = lobe.arc
             at = lobe.foot
-            ellipse = _hertz_ellipse(along, 0.5 * max(lobe.curvature, 1.0e-3), depth, material)
-        elif virtual:
-            first, second = _integrals(table, side, lobe, depth, lobe.arc, along, axle)
-            ellipse = _virtual_ellipse(first, second, lateral, depth, along, material)
-        else:
-            ellipse = _hertz_ellipse(along, lateral, depth, material)
-        force, a, b = ellipse
-        share = work.shares[kept]
-        _set_ellipse(share.own, ellipse)
+        ny, nz = _unit(zone.normal_y, zone.normal_z)
+        own = shares[k].own
+        force, a, b = own.force, own.a, own.b
+        share = shares[kept]
+        _set_ellipse(share.own, Ellipse(force, a, b))
         separation, partner = _less_separated_neighbour(lobes, k)
         if separation < 1.0 and not local:
             other = lobes[partner]
@@ -254,7 +327,8 @@ def side_patches(table, hand, axle, parameters, work, patches):
         patch.position[2] = pz - axle.z
         patch.normal[1] = ny
         patch.normal[2] = nz
-        patch.energy = 0.4 * force * depth
+        # Of one ellipse, and half the work of its own part against what the neighbours sink it.
+        patch.energy = 0.4 * force * depth + 0.1 * separation * share.own.force * lobe.sunk
         # A share of a merged patch has its share of the ellipse: this is the merged patch's.
         patch.peak_pressure = 1.5 * force / (math.pi * a * b)
         kept += 1
