@@ -81,8 +81,9 @@ def numbers(
 def unknown(kind: str, name: Any, known: Sequence[str]) -> WheelsetError:
     """The error for a name that is not among `known`; it offers the nearest one."""
     listed = ", ".join(known) or "none"
-    near = difflib.get_close_matches(str(name).lower(), known, n=1, cutoff=0.5)
-    offer = f"; did you mean {near[0]!r}?" if near else ""
+    spelt = {one.lower(): one for one in known}
+    near = difflib.get_close_matches(str(name).lower(), spelt, n=1, cutoff=0.5)
+    offer = f"; did you mean {spelt[near[0]]!r}?" if near else ""
     return WheelsetError(f"unknown {kind} {name!r}; known are {listed}{offer}")
 
 

@@ -117,7 +117,10 @@ def test_a_flange_climbs_above_nadals_limit(friction):
 def test_a_wheelset_beside_its_track_is_off_at_once():
     """Put down with its flanges above the rails."""
     for shift, ending in ((0.018, Ending.LIFT_OFF), (0.030, Ending.LOST_GAUGE)):
-        outcome, place, time = run(build(lateral_offset=shift, height=0.030, gravity=0.0)[1], 0.01)
+        mbs = build(height=0.030, gravity=0.0)[1]
+        (items,) = wheelsets_of(mbs)
+        mbs.SetNodeParameter(items.node, "initialCoordinates", [0.0, shift, 0.0, 0.0, 0.0, 0.0])
+        outcome, place, time = run(mbs, 0.01)
         assert outcome.ending is ending
         assert place[0] == pytest.approx(shift, abs=1e-4)
         assert time < 0.003

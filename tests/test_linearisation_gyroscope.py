@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import SimulationError
@@ -222,7 +222,7 @@ def test_what_cannot_be_treated_is_named():
         rotor(cyclic=[6])
     with pytest.raises(AnalysisError, match="part of the rotation vector"):
         rotor(cyclic=[4])
-    with pytest.raises(AnalysisError, match="no solver type 'RK45'"):
+    with pytest.raises(WheelsetError, match=r"unknown solver type 'RK45'.*did you mean"):
         rotor(solver_type="RK45")
     with pytest.raises(AnalysisError, match="11 states: x"):
         rotor(scales=[1.0])

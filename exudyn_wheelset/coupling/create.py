@@ -19,10 +19,16 @@ from exudyn.utilities import (
     SensorUserFunction,
 )
 
-from exudyn_wheelset.checking import number
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check_contact_names
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
+from exudyn_wheelset.coupling.create_checks import (
+    check_kinds,
+    check_motion,
+    check_place,
+    check_rails,
+)
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
+from exudyn_wheelset.coupling.guidance import guidance
 from exudyn_wheelset.coupling.registration import (
     FirstOrderState,
     WheelsetItems,
@@ -77,11 +83,11 @@ def create_wheelset(
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
     rails.
     """
-    number("speed", speed, "m/s")
-    number("lateral_offset", lateral_offset, "m")
-    number("yaw", yaw, "rad")
-    number("gravity", gravity, "m/s^2")
     check_contact_names(creep, law_parameters, _OWN_OPTIONS)
+    check_kinds(mbs, wheelset, track, contact)
+    check_motion(speed, gravity, {"moving_frame": moving_frame, "sensors": sensors, "show": show})
+    check_place(guidance(wheelset, track), position, height, lateral_offset, yaw)
+    check_rails(irregularity, rail_elasticity, float(position[0]))
     name = unused_name(mbs, name)
     parameters = contact_parameters(
         contact,

@@ -12,6 +12,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import exudyn as exu
+
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
 
@@ -69,7 +71,12 @@ def register_wheelset(function: Callable, items: WheelsetItems) -> None:
 
 
 def wheelsets_of(mbs: Any) -> tuple[WheelsetItems, ...]:
-    """The wheelsets that `create_wheelset` has added to `mbs`, in the order of their creation."""
+    """The wheelsets that `create_wheelset` has added to `mbs`, in the order of their creation.
+
+    Raises WheelsetError for what is no Exudyn system.
+    """
+    if not isinstance(mbs, exu.MainSystem):
+        raise WheelsetError(f"mbs is a {type(mbs).__name__}: give Exudyn's system, SC.AddSystem()")
     found = []
     for load in range(mbs.systemData.NumberOfLoads()):
         function = _function(mbs.GetLoad(load).get("loadVectorUserFunction"))

@@ -9,6 +9,7 @@ import numpy as np
 from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
+from exudyn_wheelset.checking import positive, unknown
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import copied_settings, run_solver
 from exudyn_wheelset.errors import AnalysisError
@@ -49,15 +50,12 @@ class Runner:
             step = DEFAULT_STEP
             if settings is not None:
                 step = (integration.endTime - integration.startTime) / integration.numberOfSteps
-        self.step = float(step)
-        if not (np.isfinite(self.step) and self.step > 0.0):
-            raise AnalysisError(f"{name}: step = {step!r} s: give a time step above 0 s")
+        self.step = positive("step", step, "s", 1.0)
         if solver_type is None:
             solver_type = DEFAULT_SOLVER if settings is None else integration.solverType
         if isinstance(solver_type, str):
             if solver_type not in exu.DynamicSolverType.__members__:
-                known = ", ".join(sorted(exu.DynamicSolverType.__members__))
-                raise AnalysisError(f"{name}: no solver type {solver_type!r}; known are {known}")
+                raise unknown("solver type", solver_type, sorted(exu.DynamicSolverType.__members__))
             solver_type = exu.DynamicSolverType.__members__[solver_type]
         self.solver_type = solver_type
         self._sensors = _state_sensors(mbs, name, memory)

@@ -24,6 +24,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.systems.checks import check_arguments, check_states
 from exudyn_wheelset.systems.described import described
 from exudyn_wheelset.systems.exudyn_layout import lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
@@ -92,6 +93,7 @@ class ExudynSystem(DynamicSystem):
         settings: exu.SimulationSettings | None = None,
         parameters: Mapping[str, Any] | None = None,
     ) -> None:
+        check_arguments(mbs, SC, name, settings)
         self.name = name
         # Exudyn's stub files miss `self` and accept lists only where arrays are taken too.
         self.mbs: Any = mbs
@@ -130,20 +132,14 @@ class ExudynSystem(DynamicSystem):
         self._velocities = np.zeros(self._order2)
         self._first_order = np.zeros(self._order1)
 
-        size = len(layout.names)
-        self.state_names = tuple(state_names or layout.names)
+        names = layout.names if state_names is None else state_names
         if scales is None:
             scales = layout.scales
-        self.scales = np.array(scales, dtype=float)
-        for what, length in (("state_names", len(self.state_names)), ("scales", len(self.scales))):
-            if length != size:
-                raise AnalysisError(
-                    f"{name}: {what} has {length} entries, the system has {size} states: "
-                    f"{', '.join(layout.names)}"
-                )
         if displacement_indices is None:
             displacement_indices = range(self._positions)
         self.displacement_indices = tuple(displacement_indices)
+        self.scales = check_states(name, layout.names, names, scales, self.displacement_indices)
+        self.state_names = tuple(names)
         places = [
             layout.wheelset_states([int(k) for k in self._data.GetNodeLTGODE2(items.node)])
             for items in self.wheelsets

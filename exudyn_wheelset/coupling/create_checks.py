@@ -1,0 +1,89 @@
+"""What `create_wheelset` refuses: each with the value, its range and the mend."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import exudyn as exu
+import numpy as np
+
+from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
+from exudyn_wheelset.coupling.elastic_rails import RailElasticity
+from exudyn_wheelset.coupling.guidance import Guidance
+from exudyn_wheelset.errors import WheelsetError
+
+# Rail vehicles run up to 160 m/s.
+FASTEST = 200.0
+# Flanges touch their rails some 0.1 m before and behind the middle of the contact: with a play of
+# 7 mm on either side a wheelset cannot yaw by more than 0.07 rad between its rails.
+LARGEST_YAW = 0.1
+
+
+def check_kinds(mbs: Any, wheelset: Any, track: Any, contact: Any) -> None:
+    """Raise WheelsetError where an argument is not of its kind, or two have changed places."""
+    wanted = (
+        ("mbs", mbs, exu.MainSystem, "Exudyn's system, SC.AddSystem()"),
+        (
+            "wheelset",
+            wheelset,
+            Wheelset,
+            "a Wheelset(mass=..., wheel=..., ...)",
+        ),
+        ("track", track, Track, 'a Track("UIC60")'),
+        ("contact", contact, Contact | None, "a Contact(friction=0.4), or its numbers by keyword"),
+    )
+    for what, value, kind, example in wanted:
+        if not isinstance(value, kind):
+            raise WheelsetError(
+                f"{what} is a {type(value).__name__}: give {example}; the order is "
+                "create_wheelset(mbs, wheelset, track, ...)"
+            )
+
+
+def check_place(
+    guidance: Guidance, position: Any, height: float | None, lateral_offset: Any, yaw: Any
+) -> None:
+    """Raise WheelsetError for a place that is not on the rails, and for what is no number."""
+    _, y = numbers("position (x, y)", position, 2, "m")
+    low, high = -guidance.shift[1], guidance.shift[0]
+    mend = "beyond, its flange is no longer inside the rail; is it given in metres?"
+    number("lateral_offset", lateral_offset, "m", low, high, mend)
+    number("position y + lateral_offset", y + lateral_offset, "m", low, high, mend)
+    number(
+        "yaw", yaw, "rad", -LARGEST_YAW, LARGEST_YAW,
+        "a wheelset cannot yaw farther between its rails; is it given in radians?",
+    )  # fmt: skip
+    if height is not None:
+        number("height", height, "m", -0.1, 0.1, "it counts from `radius` above the rails' tops")
+
+
+def check_motion(speed: Any, gravity: Any, switches: Mapping[str, Any]) -> None:
+    """Raise WheelsetError for speeds and weights out of range, and for switches that are none."""
+    number("speed", speed, "m/s", -FASTEST, FASTEST, "is it given in m/s?")
+    number("gravity", gravity, "m/s^2", -100.0, 100.0)
+    for what, value in switches.items():
+        if not isinstance(value, bool | np.bool_):
+            raise WheelsetError(f"{what} = {value!r}: give True or False")
+
+
+def check_rails(irregularity: Any, rail_elasticity: Any, station: float) -> None:
+    """Raise WheelsetError for rails that do not say how they lie."""
+    if not isinstance(rail_elasticity, RailElasticity | None):
+        raise WheelsetError(
+            f"rail_elasticity = {rail_elasticity!r}: give a RailElasticity(...) or leave it out"
+        )
+    if irregularity is None:
+        return
+    if not callable(irregularity):
+        raise WheelsetError(
+            f"irregularity = {irregularity!r}: give a function of the station [m] that returns "
+            "eight numbers"
+        )
+    motion = np.asarray(irregularity(station), dtype=float)
+    if motion.shape != (8,) or not np.all(np.isfinite(motion)):
+        raise WheelsetError(
+            f"irregularity at {station:g} m gives {motion.tolist()}: give eight finite numbers, "
+            "the shifts y, z of the left and of the right rail [m], then their rates [m/s]"
+        )
