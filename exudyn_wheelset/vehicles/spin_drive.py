@@ -36,7 +36,7 @@ def create_spin_drive(mbs: Any, items: WheelsetItems, radius: float, damping: fl
     torque: Any = torque_of
     return mbs.AddLoad(
         LoadTorqueVector(
-            name="spin drive",
+            name=f"{items.name} spin drive",
             markerNumber=items.marker,
             bodyFixed=True,
             loadVectorUserFunction=torque,
