@@ -68,7 +68,6 @@ def run(mbs, duration=2.0, step=2e-4):
     settings.timeIntegration.numberOfSteps = round(duration / step)
     settings.timeIntegration.endTime = duration
     settings.timeIntegration.verboseMode = 0
-    settings.solution.file.write = False
     (items,) = wheelsets_of(mbs)
     outcome = run_solver(mbs, settings, exu.DynamicSolverType.RK44, [items.contact])
     return outcome, items.contact.stance(), mbs.systemData.GetTime()

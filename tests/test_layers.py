@@ -9,7 +9,7 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1] / "exudyn_wheelset"
 LAYERS = (
-    ("errors", "checking", "compilation"),
+    ("errors", "arrays", "constants", "checking", "compilation"),
     ("track",),
     ("creep", "profiles", "results", "studies"),
     ("contact",),
@@ -22,7 +22,7 @@ LAYERS = (
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}
 # Loads what it is asked to compile, when it is called.
-EXCEPTIONS = {"compilation.py": {"contact", "geometry"}, "results/records.py": {"systems"}}
+EXCEPTIONS = {"compilation.py": {"contact", "geometry"}}
 
 
 def imported(path: Path) -> set[str]:

@@ -24,6 +24,7 @@ from exudyn_wheelset import (
 )
 from exudyn_wheelset.coupling.create import SENSOR_VALUES
 from exudyn_wheelset.coupling.derailment import DerailmentWatch
+from exudyn_wheelset.coupling.running import run_solver
 from exudyn_wheelset.results.growth import measure_growth
 
 WHEELSET = Wheelset(mass=1500.0, inertia=(900.0, 100.0, 900.0), radius=0.46, wheel="S1002")
@@ -212,7 +213,17 @@ def test_no_folder_is_left_behind(tmp_path, monkeypatch, truck):
     simulate(truck, 30.0, 0.01)
     simulate(model()[1], SPEED, 0.01)
     simulate(model()[1], SPEED, 0.01, settings=exu.SimulationSettings(), step=5e-4)
+    _container, mbs = model()
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.endTime = 0.01
+    run_solver(mbs, settings, exu.DynamicSolverType.RK44)
+    assert settings.solution.file.write
     assert list(tmp_path.iterdir()) == []
+    settings.solution.file.name = "mine"
+    run_solver(mbs, settings, exu.DynamicSolverType.RK44)
+    assert [file.stem for file in tmp_path.iterdir()] == ["mine"]
 
 
 @pytest.mark.parametrize(

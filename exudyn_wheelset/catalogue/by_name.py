@@ -25,6 +25,7 @@ from exudyn_wheelset.catalogue.manchester_coach import manchester_coach
 from exudyn_wheelset.catalogue.three_axle_truck import three_axle_truck
 from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
@@ -122,7 +123,7 @@ def s1002_wheelset(
             stiffness=(longitudinal_stiffness, lateral_stiffness, 1.22e6),
             damping=(15.0e3, 2.0e3, 4.0e3),
         ),
-        axle_load=9.81 * (0.25 * body + 0.5 * frame + wheelset),
+        axle_load=GRAVITY * (0.25 * body + 0.5 * frame + wheelset),
         contact={"creep": "shen-hedrick-elkins", "friction": 0.3, "damping": 10.0, **contact},
         name="S1002 wheelset on UIC60",
     )

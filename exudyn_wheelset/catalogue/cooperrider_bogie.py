@@ -38,11 +38,10 @@ import exudyn as exu
 import numpy as np
 from exudyn.utilities import NodeGenericODE2, ObjectGenericODE2
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-
-Array = np.ndarray
 
 STATE_NAMES = (
     "q1 leading wheelset y [m]",

@@ -12,11 +12,10 @@ from dataclasses import asdict
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.catalogue.cooperrider_bogie import SCALES, STATE_NAMES, CooperriderBogie
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.systems.system import FunctionSystem
-
-Array = np.ndarray
 
 
 @compiled

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.catalogue.changes import Changes
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.vehicles.builder import VehicleBuilder
-from exudyn_wheelset.vehicles.description import GRAVITY, Vehicle
+from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements import Spring
 from exudyn_wheelset.vehicles.rail_support import rest_on_rails
 

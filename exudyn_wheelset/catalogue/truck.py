@@ -29,6 +29,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, split_contact
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.coupling.registration import WheelsetItems
@@ -39,7 +40,7 @@ from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.builder import VehicleBuilder
-from exudyn_wheelset.vehicles.description import GRAVITY, Vehicle
+from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements import Spring
 
 

@@ -14,6 +14,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import CONTACT_NUMBERS, Contact, Track, Wheelset
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.errors import WheelsetError
@@ -21,7 +22,7 @@ from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles.assemble import add_vehicle
 from exudyn_wheelset.vehicles.builder import VehicleBuilder
-from exudyn_wheelset.vehicles.description import GRAVITY, Vehicle
+from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements import Spring
 
 

@@ -19,6 +19,7 @@ from exudyn.utilities import (
     SensorUserFunction,
 )
 
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset, check_contact_names
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.create_checks import (
@@ -53,7 +54,7 @@ def create_wheelset(
     height: float | None = None,
     lateral_offset: float = 0.0,
     yaw: float = 0.0,
-    gravity: float = 9.81,
+    gravity: float = GRAVITY,
     contact: Contact | None = None,
     normal: str = Contact.normal,
     creep: Any = Contact.creep,

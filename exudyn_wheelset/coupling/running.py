@@ -1,8 +1,9 @@
 """Running Exudyn's solver on a model: watched, interruptible, quiet, and without files.
 
 Between its steps the solver lets Python look at the wheelsets and at the keyboard: a run ends where
-a wheelset leaves the rails (derailment.py) or on Ctrl-C, and keeps what it has. Nothing is written:
-Exudyn's folder `solution/` appears only where a user's own settings ask for it.
+a wheelset leaves the rails (derailment.py) or on Ctrl-C, and keeps what it has. Exudyn's solution
+file is written only where the settings give it a name of its own (`solution.file.name`): no folder
+`solution/` is left behind by everyone who did not switch it off.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from exudyn_wheelset.results.endings import Ending, Outcome
 
 # Wheelsets are looked at this often [s]: a derailing wheel needs some 20 ms over its flange.
 CHECK_INTERVAL = 2.0e-3
+# Name of Exudyn's solution file where none is given.
+_SOLUTION_FILE = exu.SimulationSettings().solution.file.name
 
 
 class QuietExudyn:
@@ -111,6 +114,9 @@ def run_solver(
         unit="s",
         bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
     )
+    file = settings.solution.file
+    kept = file.write
+    file.write = kept and file.name != _SOLUTION_FILE
     before = mbs.GetPreStepUserFunction(asDict=True)
     theirs = before["function"] if isinstance(before, dict) else before or None
     overseer = _Overseer(start, end, contacts, bar, theirs)
@@ -130,6 +136,7 @@ def run_solver(
             if outcome.ending is Ending.FINISHED:
                 bar.update(end - start - bar.n)
     finally:
+        file.write = kept
         mbs.SetPreStepUserFunction(theirs or 0)
         if handler is not None:
             signal.signal(signal.SIGINT, handler)

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
-
-Array = np.ndarray
 
 
 class NamedColumns(np.ndarray):

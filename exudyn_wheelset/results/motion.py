@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.files import write_columns
 from exudyn_wheelset.results.records import read_record, write_record
 
-Array = np.ndarray
 KIND = "motion"
 _SIDES = ("left", "right")
 

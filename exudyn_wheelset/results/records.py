@@ -15,11 +15,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.files import plain, write_atomically
 from exudyn_wheelset.results.versions import versions
-
-Array = np.ndarray
 
 
 class Measured(Protocol):

@@ -8,10 +8,9 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import positive
 from exudyn_wheelset.errors import AnalysisError
-
-Array = np.ndarray
 
 
 def check_arguments(mbs: Any, container: Any, name: Any, settings: Any) -> None:

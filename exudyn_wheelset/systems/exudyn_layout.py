@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.registration import named_states
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems.reduction import (
@@ -21,8 +22,6 @@ from exudyn_wheelset.systems.reduction import (
     expand_state,
     reduce_coordinates,
 )
-
-Array = np.ndarray
 
 # Typical magnitudes of hunting below the flange: millimetres, milliradians, centimetres a second.
 DISPLACEMENT_SCALE = 1.0e-3

@@ -9,13 +9,12 @@ import numpy as np
 from exudyn.utilities import SensorNode
 from scipy.interpolate import CubicSpline
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import positive, unknown
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import copied_settings, run_solver
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Outcome
-
-Array = np.ndarray
 
 # RK44 at this step [s] is within 1 % of the converged growth rate of a wheelset on stiff contact,
 # and explicit steps need no Jacobian of the loads.

@@ -25,11 +25,8 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.compilation import compiled
-
-Array = np.ndarray
 
 # What `position_of` says of a coordinate that is not one entry of the state.
 CYCLIC = -1

@@ -19,13 +19,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.versions import versions
 from exudyn_wheelset.vehicles.description import Vehicle
-
-Array = np.ndarray
 
 # Relative step of central differences: the cube root of the rounding unit balances the cut-off
 # error O(h^2) against the rounding error O(1/h).

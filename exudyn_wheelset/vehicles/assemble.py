@@ -23,6 +23,7 @@ from exudyn.utilities import (
     RigidBodyInertia,
 )
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.coupling.create import create_wheelset
 from exudyn_wheelset.coupling.registration import (
@@ -39,7 +40,6 @@ from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.struts import block_of, strokes_at
 
-Array = np.ndarray
 _CURRENT = exu.ConfigurationType.Current
 
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
 from exudyn_wheelset.vehicles.struts import Strut
-
-Array = np.ndarray
 
 # Of a wheel on its rail [N/m], for the sharing of loads: some 100 kN on 0.1 mm.
 WHEEL_STIFFNESS = 1.0e9

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from exudyn_wheelset.checking import unknown
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.vehicles.description import (
-    GRAVITY,
     GROUND,
     Axle,
     Body,

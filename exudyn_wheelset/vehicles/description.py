@@ -15,11 +15,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from exudyn_wheelset.checking import number, numbers, positive, unknown
+from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.vehicles.elements.protocol import check_element
 
-GRAVITY = 9.81
 # The far end of a connection that stands on no body: what moves along at the forward speed.
 GROUND = "ground"
 PRELOADS = ("drawing", "free")

@@ -13,12 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.errors import ContactError
 from exudyn_wheelset.geometry.rigid import contact_geometry
-
-Array = np.ndarray
 
 # Creepages, and so the forces of a wheelset in steady rolling, do not depend on the speed.
 _SPEED = 10.0

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.vehicles import kernel
@@ -21,7 +22,6 @@ from exudyn_wheelset.vehicles.description import Axle, Vehicle
 from exudyn_wheelset.vehicles.rail_support import AxleRest, rail_wrench, rest_on_rails
 from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
 
-Array = np.ndarray
 _NEWTON_STEPS = 60
 # Accelerations [m/s^2, rad/s^2] that are rounding.
 _AT_REST = 1.0e-7

@@ -14,11 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.rest import accelerations, find_rest
-
-Array = np.ndarray
 
 
 class WheelLoads(NamedTuple):

@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.vehicles import kernel
 from exudyn_wheelset.vehicles.description import GROUND, Axle, Connection, Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import Law
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,5 @@
+"""The type of arrays in signatures."""
+
+import numpy as np
+
+Array = np.ndarray
