@@ -16,8 +16,13 @@ def test_script_of_the_readme(tmp_path, monkeypatch):
     names: dict = {}
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         exec(script, names)
-    # 1500 kg and 100 kN on two wheels; after two seconds the hunting has died down.
+    # 1500 kg and 100 kN on two wheels. After two seconds the hunting has died down; the bounce on
+    # the undamped contact, 1.9 times the load when it is let go, has not quite.
     half = 0.5 * (1500 * 9.81 + 100e3)
-    assert names["left"][-1] == pytest.approx(half, rel=1e-3)
-    assert printed.getvalue() == (f"left wheel: {half / 1e3:.1f} kN; the planned end was reached\n")
+    left = names["left"]
+    assert left[-250:].mean() == pytest.approx(half, rel=1e-3)
+    assert left[-1] == pytest.approx(half, rel=0.01)
+    assert printed.getvalue() == (
+        f"left wheel: {left[-1] / 1e3:.1f} kN; the planned end was reached\n"
+    )
     assert list(tmp_path.iterdir()) == []
