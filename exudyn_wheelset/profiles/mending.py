@@ -82,7 +82,7 @@ def _is_lost(points: FloatArray, k: int, typical: float, extent: float) -> bool:
     """Whether the first k points lie beyond a gap and not on the curve's way on."""
     jump = points[k - 1] - points[k]
     gap = float(np.hypot(*jump))
-    if not gap > max(10.0 * typical, 0.05 * extent):
+    if not gap > max(6.0 * typical, 0.02 * extent):
         return False
     if gap > extent:
         return True

@@ -87,6 +87,10 @@ def read(lines: list[str], label: str) -> RawProfile:
     if open_sections or not ended:
         where = f"inside '{open_sections[-1]}.begin'" if open_sections else "without 'spline.end'"
         raise fault(label, len(lines), f"the file ends {where}; it seems to be cut off")
+    by_suffix = {"prw": "wheel", "prr": "rail"}.get(label.lower().rsplit(".", 1)[-1])
+    if raw.kind is None and by_suffix:
+        raw.kind = by_suffix
+        raw.remarks.append(f"taken as a {by_suffix} by the suffix; the header has no type")
     if raw.kind is None:
         raise fault(label, None, "no type in the header; add 'type = 1' (wheel) or 0 (rail)")
     if weights:
