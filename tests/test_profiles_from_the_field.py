@@ -265,6 +265,39 @@ class TestTables:
         assert load_profile(put(rows, "a.csv")).kind == "rail"
 
 
+class TestShapes:
+    """What a person sees at a glance, without a word in the file."""
+
+    @pytest.mark.parametrize("y_sign, z_sign", [(1, 1), (-1, 1), (1, -1), (-1, -1)])
+    @pytest.mark.parametrize(
+        "profile, low, high, kind",
+        [
+            (RAIL, -1.0, 0.012, "rail"),
+            (RAIL, -1.0, 0.030, "rail"),
+            (WHEEL, -0.055, 1.0, "wheel"),
+            (WHEEL, -1.0, 0.030, "wheel"),
+        ],
+        ids=["gauge half of a head", "most of a head", "no flange back", "no field side"],
+    )
+    def test_parts(self, put, profile, low, high, kind, y_sign, z_sign):
+        part = (profile.y > low) & (profile.y < high)
+        y, z = 1e3 * y_sign * profile.y[part], 1e3 * z_sign * profile.z[part]
+        found = load_profile(put([f"{a:.4f} {b:.4f}" for a, b in zip(y, z, strict=True)], "a.txt"))
+        assert found.kind == kind
+        inside = np.linspace(max(low, found.span[0]), min(high, found.span[1]), 50)[2:-2]
+        assert found.height(inside) == pytest.approx(profile.height(inside), abs=1e-6)
+
+    def test_flange_back_far_from_70_mm_is_said(self, put):
+        rows = [
+            f"{1e3 * y + 30.0:.4f} {1e3 * z:.4f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True)
+        ]
+        back = [f"-40.0000 {z:.3f}" for z in np.linspace(5.0, -9.2, 40)]
+        said = " ".join(load_profile(put([*back, *rows], "a.txt")).remarks)
+        assert "the flange back lies 40.0 mm from y = 0" in said
+        mend = float(re.search(r"shift_y=(-?[\d.]+)", said)[1])
+        same(load_profile(put([*back, *rows], "a.txt"), shift_y=mend), WHEEL, 1e-6)
+
+
 class TestMends:
     def test_lost_ends(self, put):
         rows = [f"{1e3 * y:.4f} {1e3 * z:.4f}" for y, z in zip(WHEEL.y, WHEEL.z, strict=True)]

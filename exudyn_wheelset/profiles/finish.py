@@ -39,6 +39,7 @@ _DATUM_SHIFT = 5e-3
 _STEEP = 3.0
 _GAUGE_DEPTH = 0.014
 _TAPE_FROM_FLANGE_BACK = 0.070
+_TAPE_TOLERANCE = 0.010
 _MOST_BACKSTEPS = 0.1
 _MOST_LEFT_OUT = 0.4
 _WIDE_GAP = 3e-3
@@ -122,6 +123,13 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
             f"circle y = 0; give shift_y={-y[0] - _TAPE_FROM_FLANGE_BACK:.6g} to put y = 0 "
             f"{1e3 * _TAPE_FROM_FLANGE_BACK:g} mm from the first point of the flange",
         )
+    if kind == "wheel" and not raw.trusted and low_face and not any(options.shift):
+        beside = -y[0] - _TAPE_FROM_FLANGE_BACK
+        if abs(beside) > _TAPE_TOLERANCE:
+            remarks.append(
+                f"the flange back lies {-1e3 * y[0]:.1f} mm from y = 0: is that the tape circle? "
+                f"shift_y={beside:.4g} puts it {1e3 * _TAPE_FROM_FLANGE_BACK:g} mm away"
+            )
     try:
         profile = Profile(
             raw.name or stem,
