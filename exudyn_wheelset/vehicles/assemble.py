@@ -16,6 +16,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from exudyn.utilities import (
+    LoadForceVector,
     MarkerBodyRigid,
     NodeGenericODE1,
     ObjectGenericODE1,
@@ -35,7 +36,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.vehicles import kernel
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import End
-from exudyn_wheelset.vehicles.rest import Rest, find_rest
+from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part
 from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.struts import block_of, strokes_at
@@ -226,6 +227,7 @@ def add_vehicle(
         )
         bodies[body.name] = BodyItems(int(created["nodeNumber"]), int(created["bodyNumber"]))
         _put_at_rest(mbs, bodies[body.name].node, rest.pose[k], None)
+    _pull(mbs, rest, vehicle, [*wheelsets.values(), *bodies.values()], name)
     parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
     connections = _own_items(mbs, rest, [*parts, ground], shift, len(wheelsets))
@@ -295,6 +297,17 @@ def _compiled_items(
     )
     connectors.attach_states(int(number_of_object))
     return connectors, int(connector), int(number_of_object)
+
+
+def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -> None:
+    """Let a vehicle whose wheels drive or brake keep its speed."""
+    if rest.pull == 0.0:
+        return
+    body = parts[heaviest_part(vehicle)].body
+    marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} pulled", bodyNumber=body))
+    mbs.AddLoad(
+        LoadForceVector(name=f"{name} pull", markerNumber=marker, loadVector=[rest.pull, 0.0, 0.0])
+    )
 
 
 def _own_items(mbs: Any, rest: Rest, parts: list[Any], shift: Array, axles: int) -> dict[str, Any]:

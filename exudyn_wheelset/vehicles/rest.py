@@ -33,7 +33,9 @@ class Rest:
 
     struts; preloads (m, 6): their forces in the drawing; centres (n, 3) [m]: reference positions
     of the parts; pose (n, 6): their displacement and rotation vector at rest; drawn (n, 6): the
-    same where the struts have their preloads; axles: of each wheelset.
+    same where the struts have their preloads; axles: of each wheelset; pull [N]: forward force on
+    the heaviest part that keeps a vehicle going whose wheels drive or brake (driven axles, wheels
+    that touch in two places, steering wheelsets) and that no connection to the ground holds.
     """
 
     struts: list[Strut]
@@ -42,6 +44,7 @@ class Rest:
     pose: Array
     drawn: Array
     axles: list[AxleRest]
+    pull: float = 0.0
 
 
 def find_rest(vehicle: Vehicle) -> Rest:
@@ -80,11 +83,10 @@ def find_rest(vehicle: Vehicle) -> Rest:
         return _settle(vehicle, drawn)
     _place_axles(pose, axles)
     rest = Rest(struts, forces, centres, pose, pose, axles)
-    if np.abs(accelerations(vehicle, rest)).max() < _AT_REST or any(
-        axle.driven for axle in vehicle.wheelsets
-    ):
+    if np.abs(accelerations(vehicle, rest)).max() < _AT_REST:
         return rest
     # Unlike wheels or loads: rolling radii differ, so the wheelsets steer until springs hold them.
+    # Driven wheels and those that touch in two places pull or brake.
     try:
         return _settle(vehicle, rest)
     except WheelsetError:
@@ -94,9 +96,27 @@ def find_rest(vehicle: Vehicle) -> Rest:
 def accelerations(vehicle: Vehicle, rest: Rest) -> Array:
     """Accelerations (n, 6) [m/s^2, rad/s^2] left at rest, by the kernels of the simulation."""
     forces = StaticForces(vehicle, rest.struts, rest.preloads, rest.centres, rest.drawn)(rest.pose)
-    for k, at_rest in enumerate(rest.axles):
-        forces[k] += at_rest.wrench
+    forces[heaviest_part(vehicle), 0] += rest.pull
+    _add_rails(vehicle, forces, rest.axles)
     return forces / inertias_of(vehicle)
+
+
+def heaviest_part(vehicle: Vehicle) -> int:
+    """Number of the part that is pulled."""
+    return int(np.argmax(inertias_of(vehicle)[:, 0]))
+
+
+def _add_rails(vehicle: Vehicle, forces: Array, axles: list[AxleRest]) -> None:
+    """Add the rails' wrenches to forces (n, 6); a drive takes the moment about its axle."""
+    for k, (axle, at_rest) in enumerate(zip(vehicle.wheelsets, axles, strict=True)):
+        forces[k] += at_rest.wrench
+        if axle.driven:
+            forces[k, 4] = 0.0
+
+
+def _rolls_freely(struts: list[Strut], parts: int) -> bool:
+    """Whether no connection to the ground holds the vehicle along the track."""
+    return not any(strut.upper == parts and strut.stiffness[0, 0] > 0.0 for strut in struts)
 
 
 def _place_axles(pose: Array, axles: list[AxleRest]) -> None:
@@ -159,10 +179,12 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
     forces_of = StaticForces(vehicle, rest.struts, rest.preloads, centres, rest.drawn)
     inertias = inertias_of(vehicle)
     spins = len(vehicle.wheelsets)
+    pulled, weight = heaviest_part(vehicle), float(inertias[:, 0].sum()) * max(vehicle.gravity, 1.0)
+    free = _rolls_freely(rest.struts, len(centres))
 
     def split(unknown: Array) -> tuple[Array, list[AxleRest]]:
         """Pose and wheelsets; a wheelset's pitch stands for the change of its rolling radius."""
-        trial = unknown.reshape(-1, 6).copy()
+        trial = unknown[:-1].reshape(-1, 6).copy()
         axles = []
         for k, axle in enumerate(vehicle.wheelsets):
             yaw, roll = trial[k, 5], trial[k, 3]
@@ -177,23 +199,23 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
     def left(unknown: Array) -> Array:
         trial, axles = split(unknown)
         forces = forces_of(trial)
-        for k, at_rest in enumerate(axles):
-            forces[k] += at_rest.wrench
+        forces[pulled, 0] += weight * unknown[-1]
+        _add_rails(vehicle, forces, axles)
         return (forces / inertias).ravel()
 
-    unknown = rest.pose.ravel()
+    unknown = np.append(rest.pose.ravel(), rest.pull / weight)
     steps = np.full(unknown.size, 1e-7)
     residual = left(unknown)
     for _ in range(_NEWTON_STEPS):
-        slope = np.empty((unknown.size, unknown.size))
-        for column in range(unknown.size):
+        slope = np.zeros((residual.size, unknown.size))
+        for column in range(unknown.size if free else residual.size):
             ahead, behind = unknown.copy(), unknown.copy()
             ahead[column] += steps[column]
             behind[column] -= steps[column]
             slope[:, column] = (left(ahead) - left(behind)) / (2.0 * steps[column])
         step = -np.linalg.lstsq(slope, residual, rcond=1e-12)[0]
         # A wheel lifts off or digs in where a step leaves the thin layer of its penetration.
-        wheels = np.abs(step.reshape(-1, 6)[:spins, [2, 3]]).max(initial=0.0)
+        wheels = np.abs(step[:-1].reshape(-1, 6)[:spins, [2, 3]]).max(initial=0.0)
         unknown = unknown + step * min(1.0, 5e-5 / wheels if wheels > 0.0 else 1.0)
         residual = left(unknown)
         if np.abs(step).max() < 1e-14 or np.abs(residual).max() < _AT_REST:
@@ -205,4 +227,4 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
             f"{np.abs(residual).max():.3g} m/s^2; draw it nearer to its place or check the offsets"
         )
     trial, axles = split(unknown)
-    return replace(rest, pose=trial, axles=axles)
+    return replace(rest, pose=trial, axles=axles, pull=float(weight * unknown[-1]))

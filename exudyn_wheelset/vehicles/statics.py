@@ -36,7 +36,8 @@ class StaticEquilibrium:
     [m/s^2, rad/s^2], from forces summed anew by the kernels of the simulation; preloads: force
     [N] and moment [N m] (6) of each connection on its upper body, track frame, by name; positions:
     centres (x, y, z) [m] and rotations: rotation vectors (3) [rad] of all parts by name; radii:
-    rolling radius V/spin [m] of each wheelset.
+    rolling radius V/spin [m] of each wheelset; pull [N]: forward force on the heaviest part that
+    keeps the speed of a vehicle that rolls freely and whose wheels drive or brake, else 0.
     """
 
     wheel_loads: Mapping[str, WheelLoads]
@@ -45,6 +46,7 @@ class StaticEquilibrium:
     positions: Mapping[str, tuple[float, float, float]]
     rotations: Mapping[str, tuple[float, float, float]]
     radii: Mapping[str, float]
+    pull: float = 0.0
 
 
 def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
@@ -84,6 +86,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
                 for axle, at_rest in zip(vehicle.wheelsets, rest.axles, strict=True)
             }
         ),
+        pull=rest.pull,
     )
 
 
