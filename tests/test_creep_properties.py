@@ -50,7 +50,8 @@ def test_linear_law_has_no_limit_unless_asked(sx, sy, psi, a, b, force, mu):
     assert math.hypot(fx, fy) <= mu * force * (1 + 1e-14)
     plain = creep_force("linear", sx, sy, psi, a, b, force, mu, *STEEL)
     twice = creep_force("linear", 2 * sx, 2 * sy, 2 * psi, a, b, force / 3, mu / 5, *STEEL)
-    np.testing.assert_allclose(twice, 2 * np.array(plain), rtol=1e-12)
+    # Denormal spins keep fewer digits.
+    np.testing.assert_allclose(twice, 2 * np.array(plain), rtol=1e-12, atol=1e-290)
 
 
 @pytest.mark.parametrize("law", list(CREEP_LAWS))

@@ -1,0 +1,384 @@
+"""Mutation run: does the test suite notice when a kernel is wrong?
+
+    python tools/mutation_run.py                     all groups, as docs/mutation.md has them
+    python tools/mutation_run.py creep hertz --count 10 --seed 3
+    python tools/mutation_run.py --table             only print what has been found so far
+
+Each mutant is one change of one place of one module: a sign, an arithmetic operator, a constant, a
+comparison turned around, `and` for `or`, sin for cos, min for max. It is written into a copy of the
+repository and the tests of its group run on it; a mutant that no test notices has survived. Places
+are drawn by a seed. Results are kept after each mutant (--results), so that a run can be broken off
+and taken up again; a mutant is known by its module, line and change.
+
+Left alone: docstrings, annotations, imports, messages of errors, and constants below 1e-5 in size,
+which are tolerances of iterations: a quarter more of them changes no result.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import json
+import os
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import exudyn  # noqa: F401
+import hypothesis  # noqa: F401
+import matplotlib
+import numba
+import pytest
+import scipy.integrate
+import scipy.interpolate
+import scipy.optimize
+import scipy.special  # noqa: F401
+
+matplotlib.use("Agg")
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+PACKAGE = "exudyn_wheelset"
+
+
+@dataclass(frozen=True)
+class Group:
+    """Modules and the tests that are to notice.
+
+    compiled: False runs the kernels as Python, which saves compiling every mutant; deselected:
+    tests left out (an expression of pytest's -k), for their time.
+    """
+
+    modules: tuple[str, ...]
+    tests: tuple[str, ...]
+    compiled: bool = True
+    deselected: str = ""
+
+
+_LINEAR_TESTS = (
+    "test_linearisation_closed_forms.py",
+    "test_linearisation_gyroscope.py",
+    "test_linearisation_rolling_cone.py",
+    "test_modes_and_windows.py",
+)
+GROUPS = {
+    "creep": Group(
+        (
+            "creep/linear.py",
+            "creep/kalker.py",
+            "creep/saturation.py",
+            "creep/vermeulen_johnson.py",
+            "creep/shen_hedrick_elkins.py",
+            "creep/polach.py",
+            "creep/polach_2005.py",
+            "creep/polach_kalker.py",
+            "creep/slopes.py",
+        ),
+        (
+            "test_kalker_table.py",
+            "test_creep_polach_paper.py",
+            "test_creep_polach_kalker.py",
+            "test_creep_curves_contact.py",
+            "test_creep_properties.py",
+            "test_law_checks.py",
+        ),
+        compiled=False,
+        deselected="exact or fastsim or truck or wheelset",
+    ),
+    "fastsim": Group(
+        ("creep/fastsim.py",),
+        ("test_creep_curves_contact.py", "test_creep_fastsim_theory.py"),
+    ),
+    "hertz": Group(("contact/hertz.py",), ("test_hertz_elliptic_integrals.py",), compiled=False),
+    "locus": Group(
+        ("contact/locus.py", "contact/creepage.py"),
+        ("test_contact_locus_of_a_turned_wheel.py",),
+        compiled=False,
+    ),
+    "linearisation": Group(
+        (
+            "stability/linear/linearisation.py",
+            "stability/linear/critical_speed.py",
+            "stability/linear/crossings.py",
+            "stability/linear/spectra.py",
+            "stability/linear/modes.py",
+        ),
+        _LINEAR_TESTS,
+    ),
+    "reduction": Group(("systems/reduction.py",), _LINEAR_TESTS),
+    "rigid": Group(
+        ("geometry/gap.py", "geometry/rigid.py"),
+        ("test_contact_geometry_against_CONTACT.py", "test_piecewise_geometry_between_samples.py"),
+    ),
+    "conicity": Group(
+        ("geometry/conicity.py", "geometry/rolling_radius.py"),
+        ("test_conicity_closed_forms.py", "test_conicity_of_unlike_pairs.py"),
+    ),
+    "piecewise": Group(("geometry/piecewise.py",), ("test_piecewise_geometry_between_samples.py",)),
+    "contact": Group(
+        ("contact/search.py", "contact/patches.py", "contact/forces.py"),
+        ("test_contact_against_CONTACT.py", "test_contact_properties.py"),
+    ),
+}
+ARITHMETIC = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*"}
+SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
+COMPARISONS = {
+    ast.Lt: ("<", ">="),
+    ast.LtE: ("<=", ">"),
+    ast.Gt: (">", "<="),
+    ast.GtE: (">=", "<"),
+    ast.Eq: ("==", "!="),
+    ast.NotEq: ("!=", "=="),
+}
+SWAPPED = {
+    "sin": "cos",
+    "cos": "sin",
+    "max": "min",
+    "min": "max",
+    "atan": "tanh",
+    "maximum": "minimum",
+}
+LEAST_CONSTANT = 1.0e-5
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change: `before` at a place of a module becomes `after`."""
+
+    module: str
+    line: int
+    column: int
+    before: str
+    after: str
+
+    @property
+    def key(self) -> str:
+        return f"{self.module}:{self.line}:{self.column} {self.before} -> {self.after}"
+
+
+class _Places(ast.NodeVisitor):
+    """Collects the mutants of a module's source."""
+
+    def __init__(self, module: str, source: str) -> None:
+        self.module, self.found = module, []
+        self.lines = source.splitlines(keepends=True)
+        self.visit(ast.parse(source))
+
+    def _add(self, line: int, column: int, before: str, after: str) -> None:
+        if self.lines[line - 1][column:].startswith(before):
+            self.found.append(Mutant(self.module, line, column, before, after))
+
+    def _between(self, left: ast.AST, right: ast.AST, sign: str, after: str) -> None:
+        """An operator between two operands; those on a line of their own are left out."""
+        if left.end_lineno != right.lineno:
+            return
+        text = self.lines[left.end_lineno - 1][left.end_col_offset : right.col_offset]
+        if sign in text:
+            column = left.end_col_offset + text.index(sign)
+            self._add(left.end_lineno, column, sign, after)
+
+    def visit_BinOp(self, node: ast.BinOp) -> None:
+        if type(node.op) in ARITHMETIC:
+            self._between(node.left, node.right, SIGNS[type(node.op)], ARITHMETIC[type(node.op)])
+        self.generic_visit(node)
+
+    def visit_AugAssign(self, node: ast.AugAssign) -> None:
+        if type(node.op) in ARITHMETIC:
+            sign, after = SIGNS[type(node.op)], ARITHMETIC[type(node.op)]
+            self._between(node.target, node.value, sign + "=", after + "=")
+        self.generic_visit(node)
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
+        if isinstance(node.op, ast.USub):
+            self._add(node.lineno, node.col_offset, "-", "+")
+        self.generic_visit(node)
+
+    def visit_Compare(self, node: ast.Compare) -> None:
+        left = node.left
+        for operator, right in zip(node.ops, node.comparators, strict=True):
+            if type(operator) in COMPARISONS:
+                self._between(left, right, *COMPARISONS[type(operator)])
+            left = right
+        self.generic_visit(node)
+
+    def visit_BoolOp(self, node: ast.BoolOp) -> None:
+        words = ("and", "or") if isinstance(node.op, ast.And) else ("or", "and")
+        for left, right in zip(node.values[:-1], node.values[1:], strict=True):
+            self._between(left, right, *words)
+        self.generic_visit(node)
+
+    def visit_Constant(self, node: ast.Constant) -> None:
+        value = node.value
+        text = ast.unparse(node)
+        here = self.lines[node.lineno - 1][node.col_offset : node.end_col_offset]
+        if isinstance(value, bool):
+            self._add(node.lineno, node.col_offset, text, str(not value))
+        elif isinstance(value, int):
+            self._add(node.lineno, node.col_offset, here, str(value + 1))
+        elif isinstance(value, float) and (value == 0.0 or abs(value) >= LEAST_CONSTANT):
+            self._add(node.lineno, node.col_offset, here, repr(1.25 * value or 1.0))
+
+    def visit_Call(self, node: ast.Call) -> None:
+        name = node.func.attr if isinstance(node.func, ast.Attribute) else None
+        if isinstance(node.func, ast.Name):
+            name = node.func.id
+        if name in SWAPPED:
+            self._add(
+                node.func.end_lineno, node.func.end_col_offset - len(name), name, SWAPPED[name]
+            )
+        self.generic_visit(node)
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> None:
+        for part in [*node.args.defaults, *node.args.kw_defaults, *node.body]:
+            if part is not None:
+                self.visit(part)
+
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> None:
+        if node.value is not None:
+            self.visit(node.value)
+
+    def visit_Raise(self, node: ast.Raise) -> None:
+        pass
+
+    visit_Import = visit_ImportFrom = visit_JoinedStr = visit_Raise
+
+
+def mutants_of(module: str) -> list[Mutant]:
+    """All mutants of a module."""
+    return _Places(module, (REPOSITORY / PACKAGE / module).read_text(encoding="utf-8")).found
+
+
+def chosen(group: Group, count: int, seed: int) -> list[Mutant]:
+    """`count` mutants of the group's modules, drawn by the seed."""
+    places = [mutant for module in group.modules for mutant in mutants_of(module)]
+    return random.Random(seed).sample(places, min(count, len(places)))
+
+
+def mutated(source: str, mutant: Mutant) -> str:
+    lines = source.splitlines(keepends=True)
+    line = lines[mutant.line - 1]
+    end = mutant.column + len(mutant.before)
+    lines[mutant.line - 1] = line[: mutant.column] + mutant.after + line[end:]
+    return "".join(lines)
+
+
+def run_tests(copy: Path, group: Group, cache: Path, limit: float) -> tuple[str, float]:
+    """Whether the tests pass on the copy ("passed", "failed", "timeout"), and the seconds.
+
+    In a fork of this process, in which the libraries are loaded and the package is not.
+    """
+    before, start = set(cache.iterdir()), time.monotonic()
+    child = os.fork()
+    if child == 0:
+        os._exit(_test_here(copy, group, cache))
+    code = None
+    while code is None and time.monotonic() - start < limit:
+        found, status = os.waitpid(child, os.WNOHANG)
+        if found:
+            code = os.waitstatus_to_exitcode(status)
+        else:
+            time.sleep(0.05)
+    if code is None:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    if before:
+        for folder in set(cache.iterdir()) - before:
+            shutil.rmtree(folder, ignore_errors=True)
+    outcome = "timeout" if code is None else "passed" if code == 0 else "failed"
+    return outcome, time.monotonic() - start
+
+
+def _test_here(copy: Path, group: Group, cache: Path) -> int:
+    """Exit status of pytest in this process, on the copy."""
+    quiet = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(quiet, 1)
+    os.dup2(quiet, 2)
+    os.chdir(copy)
+    sys.path[:0] = [str(copy), str(copy / "tests")]
+    numba.config.CACHE_DIR = str(cache)
+    numba.config.DISABLE_JIT = 0 if group.compiled else 1
+    options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:randomly"]
+    if group.deselected:
+        options += ["-k", f"not ({group.deselected})"]
+    tests = [str(copy / "tests" / name) for name in group.tests]
+    try:
+        return int(pytest.main([*options, *tests]))
+    except BaseException:
+        return 1
+
+
+def run_group(name: str, count: int, seed: int, results: dict, file: Path) -> None:
+    """Run the group's mutants that are not in `results` yet; write the file after each."""
+    group = GROUPS[name]
+    pending = [m for m in chosen(group, count, seed) if m.key not in results]
+    if not pending:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        copy, cache = Path(folder, "repository"), Path(folder, "kernels")
+        cache.mkdir()
+        ignored = shutil.ignore_patterns(".git", ".venv", "*.egg-info", "__pycache__", "out")
+        shutil.copytree(REPOSITORY, copy, ignore=ignored)
+        outcome, _ = run_tests(copy, group, cache, 1800.0)
+        if outcome != "passed":
+            raise SystemExit(f"{name}: the tests do not pass without a mutation ({outcome})")
+        _, usual = run_tests(copy, group, cache, 1800.0)
+        print(f"{name}: {len(pending)} mutants, tests take {usual:.0f} s", flush=True)
+        for mutant in pending:
+            path = copy / PACKAGE / mutant.module
+            source = path.read_text(encoding="utf-8")
+            path.write_text(mutated(source, mutant), encoding="utf-8")
+            outcome, seconds = run_tests(copy, group, cache, 60.0 + 5.0 * usual)
+            path.write_text(source, encoding="utf-8")
+            status = "survived" if outcome == "passed" else "killed"
+            line = source.splitlines()[mutant.line - 1].strip()
+            results[mutant.key] = {
+                **asdict(mutant), "group": name, "status": status, "how": outcome,
+                "seconds": round(seconds, 1), "source": line,
+            }  # fmt: skip
+            file.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+            print(f"  {status:9s}{seconds:6.1f} s  {mutant.key}   | {line}", flush=True)
+
+
+def table(results: dict) -> str:
+    """Score by module, and the survivors."""
+    rows = ["| module | mutants | killed | score |", "|---|---|---|---|"]
+    modules = sorted({entry["module"] for entry in results.values()})
+    for module in [*modules, "all"]:
+        mine = [e for e in results.values() if module in (e["module"], "all")]
+        killed = sum(entry["status"] == "killed" for entry in mine)
+        rows.append(f"| {module} | {len(mine)} | {killed} | {100 * killed / len(mine):.0f} % |")
+    rows += ["", "| survivor | change | line |", "|---|---|---|"]
+    for entry in results.values():
+        if entry["status"] == "survived":
+            change = f"`{entry['before']}` to `{entry['after']}`"
+            place = f"{entry['module']}:{entry['line']}"
+            rows.append(f"| {place} | {change} | `{entry['source'].replace('|', '/')}` |")
+    return "\n".join(rows)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("groups", nargs="*", help=f"of {', '.join(GROUPS)}; default: all")
+    parser.add_argument("--count", type=int, default=20, help="mutants drawn of each group")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--results", type=Path, default=Path("runs/out/mutation.json"))
+    parser.add_argument("--again", action="store_true", help="run the survivors once more")
+    parser.add_argument("--table", action="store_true", help="print the results so far only")
+    arguments = parser.parse_args()
+    file = arguments.results
+    results = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
+    if arguments.again:
+        results = {key: e for key, e in results.items() if e["status"] == "killed"}
+    if not arguments.table:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for name in arguments.groups or GROUPS:
+            run_group(name, arguments.count, arguments.seed, results, file)
+    print(table(results))
+
+
+if __name__ == "__main__":
+    main()
