@@ -12,18 +12,18 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.utilities import SensorBody
 
-from exudyn_wheelset.catalogue.truck import Truck, TruckItems, dtu_truck
+from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
 from exudyn_wheelset.catalogue.wheelset_on_frame import WheelsetOnFrame
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.compilation import warm_up
-from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import (
     LEFT_COLOUR,
@@ -34,18 +34,21 @@ from exudyn_wheelset.front.plots import (
 )
 from exudyn_wheelset.front.script import (
     add_profile_options,
+    print_growth,
     profiles_from,
     run_script,
     script_parser,
 )
-from exudyn_wheelset.front.settings import changed_settings, load_settings
-from exudyn_wheelset.front.simulation import Ending, set_duration, simulate
-from exudyn_wheelset.results.files import write_columns
-from exudyn_wheelset.results.growth import measure_growth
+from exudyn_wheelset.front.settings import changed_settings, load_settings, output_of
+from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.results.growth import growth_beside
+from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.simulation import simulate
+from exudyn_wheelset.systems.starts import wheel_loads as wheel_loads_of
 
 DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
 SEARCHED_SPEEDS = (15.0, 150.0)
@@ -55,34 +58,19 @@ DURATION = 6.0
 # well below that is linear.
 AMPLITUDE = 2.0e-5
 BODIES = ("leading", "trailing", "frame")
+NAMES = dict(
+    zip(BODIES, ("truck leading wheelset", "truck trailing wheelset", "truck frame"), strict=True)
+)
 
 
-@dataclass(frozen=True)
-class Motion:
-    """One simulated run: lateral motion and yaw of the bodies over time, and numbers about it."""
-
-    speed: float
-    columns: dict[str, np.ndarray]
-    ending: Ending
-    numbers: dict[str, Any]
-
-
-def wheel_loads(truck: Truck, system: ExudynSystem, speed: float) -> dict[str, float]:
+def wheel_loads(system: ExudynSystem, speed: float) -> dict[str, float]:
     """Vertical force of the rails [N] on each wheel in steady running, and the sum."""
-    _, mbs, items = truck.build(speed, sensors=False, show=False)
-    mbs.Assemble()
-    coordinates, velocities = system.expand(system.equilibrium(speed))
-    mbs.systemData.SetODE2Coordinates(coordinates)
-    mbs.systemData.SetODE2Coordinates_t(velocities)
-    loads = {}
-    for which, contact in zip(BODIES, items.contacts, strict=False):
-        forces = contact.current(mbs)
-        for side, patches in (("left", forces.left), ("right", forces.right)):
-            # Normal and lateral tangent of the contact plane, both turned into the vertical.
-            loads[f"{which} {side}"] = sum(
-                patch.normal_force * patch.normal[2] - patch.fy * patch.normal[1]
-                for patch in patches
-            )
+    state = system.equilibrium(speed)
+    loads = {
+        f"{which} {side}": float(load)
+        for which, items in zip(BODIES, system.wheelsets, strict=False)
+        for side, load in zip(("left", "right"), wheel_loads_of(system, items, state), strict=True)
+    }
     return {**loads, "sum": sum(loads.values())}
 
 
@@ -113,71 +101,53 @@ def mode_shape(point: CriticalPoint) -> dict[str, dict[str, float]]:
 
 
 def simulate_mode(
-    truck: Truck,
     system: ExudynSystem,
     critical: CriticalPoint,
     speed: float,
     amplitude: float,
-    settings: exu.SimulationSettings,
+    duration: float,
+    interval: float,
     progress: bool = False,
-) -> Motion:
+) -> tuple[dict[str, Any], Motion]:
     """Start at `speed` [m/s] in the critical mode, of the given lateral amplitude [m]."""
     linear = linearise(system, speed)
     nearest = int(np.argmin(_distance(linear.eigenvalues, critical)))
     root, mode = complex(linear.eigenvalues[nearest]), linear.eigenvectors[:, nearest]
     lateral = [k for k, name in enumerate(system.state_names) if name.endswith(": y [m]")]
     mode = mode * (amplitude / mode[lateral[int(np.argmax(np.abs(mode[lateral])))]])
-    coordinates, velocities = system.expand(linear.state + mode.real)
-
-    _, mbs, items = truck.build(speed, sensors=False, show=False)
-    sensors = _add_sensors(mbs, items)
-    mbs.Assemble()
-    initial = exu.ConfigurationType.Initial
-    mbs.systemData.SetODE2Coordinates(coordinates, initial)
-    mbs.systemData.SetODE2Coordinates_t(velocities, initial)
-    ending = simulate(mbs, settings, items.contacts, progress, description=f"{speed:6.2f} m/s")
-
-    columns = _columns(mbs, sensors)
-    leading = columns["leading_y"]
-    numbers: dict[str, Any] = {
+    motion = simulate(
+        system, speed, duration, linear.state + mode.real, interval=interval, progress=progress
+    )
+    leading = motion[f"{NAMES['leading']}: y"]
+    finished = motion.outcome.ending is Ending.FINISHED
+    numbers = {
         "speed": speed,
-        "growth_rate_eigenvalue": root.real,
-        "frequency_eigenvalue": root.imag / (2.0 * np.pi),
-        "growth_rate_simulated": None,
-        "frequency_simulated": None,
+        **growth_beside(root, motion.time, leading, 2.0 * amplitude),
         "maximum_y": float(np.abs(leading).max()),
-        "simulated_time": ending.time,
-        "event": ending.event,
+        "simulated_time": float(motion.time[-1]),
+        "ending": motion.outcome.ending.name,
+        "event": None if finished else str(motion.outcome),
     }
-    grown = np.flatnonzero(np.abs(leading) > 2.0 * amplitude)
-    end = grown[0] if len(grown) else len(leading)
-    try:
-        growth = measure_growth(columns["t"][:end], leading[:end])
-        numbers["growth_rate_simulated"] = growth.rate
-        numbers["frequency_simulated"] = growth.frequency
-    except AnalysisError as error:
-        numbers["growth_rate_simulated_note"] = str(error)
-    return Motion(speed, columns, ending, numbers)
+    return numbers, motion
 
 
 def run(
     truck: Truck | None = None,
     amplitude: float = AMPLITUDE,
     settings: exu.SimulationSettings | None = None,
+    duration: float = DURATION,
     progress: bool = False,
     factors: Sequence[float] = FACTORS,
 ) -> tuple[dict[str, Any], list[Motion]]:
     """Numbers of the header, and the motions at `factors` times the critical speed.
 
-    After Ctrl-C the motions so far are returned; the last one's ending says so.
+    After Ctrl-C the motions so far are returned; the last one's outcome says so.
     """
     truck = truck or dtu_truck()
-    if settings is None:
-        settings = load_settings(DEFAULT_SETTINGS)
-        set_duration(settings, DURATION)
-    if not 1.0e-7 <= amplitude <= 0.02:
-        raise WheelsetError(f"amplitude = {amplitude!r} m: give up to 0.02, in metres")
-    system = truck.dynamic_system()
+    settings = settings or load_settings(DEFAULT_SETTINGS)
+    duration, interval = output_of(settings, duration)
+    number("amplitude", amplitude, "m", 1.0e-7, 0.02, "a lateral amplitude, in metres")
+    system = truck.dynamic_system(settings=settings)
     critical = linear_critical_speed(system, *SEARCHED_SPEEDS)
     try:
         alone = linear_critical_speed(wheelset_alone(truck), *SEARCHED_SPEEDS).speed
@@ -185,7 +155,7 @@ def run(
         alone = None
     numbers: dict[str, Any] = {
         "weight": truck.weight,
-        "wheel_loads": wheel_loads(truck, system, critical.speed),
+        "wheel_loads": wheel_loads(system, critical.speed),
         "critical_speed": critical.speed,
         "frequency": critical.frequency,
         "critical_speed_of_a_wheelset_on_a_fixed_frame": alone,
@@ -195,12 +165,13 @@ def run(
     }
     motions: list[Motion] = []
     for factor in factors:
-        motion = simulate_mode(
-            truck, system, critical, factor * critical.speed, amplitude, settings, progress
+        speed = factor * critical.speed
+        row, motion = simulate_mode(
+            system, critical, speed, amplitude, duration, interval, progress
         )
         motions.append(motion)
-        numbers["runs"].append(motion.numbers)
-        if motion.ending.interrupted:
+        numbers["runs"].append(row)
+        if motion.outcome.ending is Ending.INTERRUPTED:
             break
     return numbers, motions
 
@@ -209,35 +180,6 @@ def _distance(eigenvalues: np.ndarray, critical: CriticalPoint) -> np.ndarray:
     """How far roots are from the critical one; those below the real axis are out of question."""
     root = complex(0.0, abs(critical.eigenvalue.imag))
     return np.where(eigenvalues.imag > 0.0, np.abs(eigenvalues - root), np.inf)
-
-
-def _add_sensors(mbs: Any, items: TruckItems) -> dict[str, int]:
-    bodies = (*(one.body for one in items.wheelsets), items.body)
-    types = exu.OutputVariableType
-    return {
-        f"{name} {what.name}": mbs.AddSensor(
-            SensorBody(
-                bodyNumber=body, outputVariableType=what, storeInternal=True, writeToFile=False
-            )
-        )
-        for name, body in zip(BODIES, bodies, strict=True)
-        for what in (types.Position, types.RotationMatrix)
-    }
-
-
-def _columns(mbs: Any, sensors: dict[str, int]) -> dict[str, np.ndarray]:
-    columns = {}
-    for name in BODIES:
-        position = mbs.GetSensorStoredData(sensors[f"{name} Position"])
-        rotation = mbs.GetSensorStoredData(sensors[f"{name} RotationMatrix"])[:, 1:]
-        rotation = rotation.reshape(-1, 3, 3)
-        columns["t"] = position[:, 0]
-        columns[f"{name}_x"] = position[:, 1]
-        columns[f"{name}_y"] = position[:, 2]
-        columns[f"{name}_z"] = position[:, 3]
-        columns[f"{name}_yaw"] = np.arctan2(-rotation[:, 0, 1], rotation[:, 1, 1])
-        columns[f"{name}_roll"] = np.arcsin(rotation[:, 2, 1])
-    return columns
 
 
 def draw(path: Path, truck: Truck, numbers: dict[str, Any], motions: Sequence[Motion]) -> Path:
@@ -250,21 +192,19 @@ def draw(path: Path, truck: Truck, numbers: dict[str, Any], motions: Sequence[Mo
     axes[0, 0].set_xlim(-10.0, max(1.0, 1.2 * float(np.real(locus.eigenvalues).max())))
     figure.colorbar(marks, ax=axes[0, 0], label="speed [m/s]")
     _draw_mode(axes[0, 1], truck, numbers)
-    for panel, motion in zip(axes[1], motions, strict=False):
-        t = motion.columns["t"]
+    for panel, motion, row in zip(axes[1], motions, numbers["runs"], strict=False):
         for name, colour in zip(BODIES, (LEFT_COLOUR, RIGHT_COLOUR, WHEEL_COLOUR), strict=True):
-            panel.plot(
-                t, motion.columns[f"{name}_y"] * 1e3, color=colour, linewidth=1.0, label=name
-            )
-        measured = motion.numbers["growth_rate_simulated"]
+            y = motion[f"{NAMES[name]}: y"] * 1e3
+            panel.plot(motion.time, y, color=colour, linewidth=1.0, label=name)
+        measured = row["growth_rate_simulated"]
         panel.set_title(
-            f"{motion.speed:.2f} m/s: growth {motion.numbers['growth_rate_eigenvalue']:+.3f} 1/s"
+            f"{motion.speed:.2f} m/s: growth {row['growth_rate_eigenvalue']:+.3f} 1/s"
             + ("" if measured is None else f", simulated {measured:+.3f} 1/s"),
             fontsize=10,
         )
         panel.set_xlabel("time [s]")
         panel.set_ylabel("y [mm]")
-        grows = motion.numbers["growth_rate_eigenvalue"] > 0.0
+        grows = row["growth_rate_eigenvalue"] > 0.0
         panel.legend(fontsize=8, frameon=False, loc="upper left" if grows else "upper right")
     figure.suptitle(
         f"{truck.name}: {truck.wheelset.wheel.name} on {truck.track.rail.name}", fontsize=11
@@ -345,17 +285,7 @@ def show(numbers: dict[str, Any]) -> None:
         f"{numbers['frequency']:.3f} Hz; a wheelset of it on a fixed frame: "
         + ("stable up to the end of the search" if alone is None else f"{alone:.3f} m/s")
     )
-    print(f"{'speed':>8s}{'growth':>11s}{'eigenvalue':>12s}{'frequency':>11s}{'eigenvalue':>12s}")
-    for row in numbers["runs"]:
-        growth, frequency = row["growth_rate_simulated"], row["frequency_simulated"]
-        print(
-            f"{row['speed']:8.2f}"
-            + ("          -" if growth is None else f"{growth:+11.4f}")
-            + f"{row['growth_rate_eigenvalue']:+12.4f}"
-            + ("          -" if frequency is None else f"{frequency:11.4f}")
-            + f"{row['frequency_eigenvalue']:12.4f}"
-            + (f"  {row['event']}" if row["event"] else "")
-        )
+    print_growth(numbers["runs"])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -370,9 +300,6 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
         settings = load_settings(arguments.settings)
-        if not 0.01 <= arguments.duration <= 3600.0:
-            raise WheelsetError(f"duration = {arguments.duration!r} s: give 0.01 to 3600 s")
-        set_duration(settings, arguments.duration)
         profiles = profiles_from(arguments)
         truck = dtu_truck(profiles.wheel, creep=arguments.creep, friction=arguments.friction)
         truck = replace(truck, track=profiles.track)
@@ -380,7 +307,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         seconds = warm_up()
         if progress:
             print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
-        numbers, motions = run(truck, arguments.amplitude, settings, progress)
+        numbers, motions = run(truck, arguments.amplitude, settings, arguments.duration, progress)
         out = arguments.out
         write_json(
             out / "simple_truck.json",
@@ -389,14 +316,11 @@ def main(argv: Sequence[str] | None = None) -> int:
             settings=changed_settings(settings),
         )
         for motion in motions:
-            write_columns(
-                out / f"simple_truck_{motion.speed:.2f}.csv",
-                motion.columns,
-            )
+            motion.write_csv(out / f"simple_truck_{motion.speed:.2f}.csv")
         draw(out / "simple_truck.png", truck, numbers, motions)
         if arguments.picture:
             draw_picture(out / "simple_truck_picture.png", truck)
-        if motions[-1].ending.interrupted:
+        if motions[-1].outcome.ending is Ending.INTERRUPTED:
             if progress:
                 show(numbers)
             raise KeyboardInterrupt

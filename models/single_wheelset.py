@@ -12,55 +12,40 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.utilities import SensorBody
 
+from exudyn_wheelset import Ending, Motion, Track, Wheelset, WheelsetOnFrame, linear_critical_speed
 from exudyn_wheelset.catalogue import paper_wheelset as paper
-from exudyn_wheelset.catalogue.wheelset_on_frame import WheelsetOnFrame
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.compilation import warm_up
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.coupling.create import SENSOR_VALUES, WheelsetItems
-from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import draw_wheelset_motion, new_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
+    print_growth,
     profiles_from,
     run_script,
     script_parser,
 )
-from exudyn_wheelset.front.settings import changed_settings, load_settings
-from exudyn_wheelset.front.simulation import Ending, set_duration, simulate
-from exudyn_wheelset.geometry.rigid import contact_geometry
-from exudyn_wheelset.results.files import write_columns
-from exudyn_wheelset.results.growth import measure_growth
-from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
-from exudyn_wheelset.stability.linear.crossings import CriticalPoint
+from exudyn_wheelset.front.settings import changed_settings, load_settings, output_of
+from exudyn_wheelset.results.growth import growth_beside
 from exudyn_wheelset.stability.linear.linearisation import linearise
-from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.simulation import simulate
 
 DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
 SEARCHED_SPEEDS = (10.0, 300.0)
 FACTORS = (0.85, 1.15)
 OFFSET = 1.0e-3
-# A growth rate is measured after the first period, in which the fast creep modes die away, and up
-# to this multiple of the offset and this amplitude [m]: beyond, creep saturation starts to show.
+# A growth rate is measured up to this multiple of the offset and this amplitude [m]: beyond, creep
+# saturation starts to show.
 LARGEST_GROWTH, LARGEST_AMPLITUDE = 2.0, 3.0e-3
-
-
-@dataclass(frozen=True)
-class Motion:
-    """One simulated run: columns over time (SI, `t` first), how it ended, numbers about it."""
-
-    speed: float
-    columns: dict[str, np.ndarray]
-    ending: Ending
-    numbers: dict[str, Any]
+NAME = "wheelset"
 
 
 def vehicle(
@@ -94,74 +79,39 @@ def vehicle(
     return model
 
 
-def hunting_root(system: ExudynSystem, speed: float) -> complex:
-    """The least damped root whose mode is lateral (y, yaw, roll), not longitudinal or vertical."""
-    linear = linearise(system, speed)
-    shown = list(system.displacement_indices)
-    sizes = np.abs(linear.eigenvectors / system.scales[:, None])[shown] ** 2
-    words = ("y [m]", "yaw", "roll")
-    lateral = [any(word in system.state_names[index] for word in words) for index in shown]
-    share = sizes[lateral].sum(axis=0) / sizes.sum(axis=0)
-    chosen = (linear.eigenvalues.imag > 1.0e-3) & (share > 0.5)
-    if not chosen.any():
-        raise AnalysisError(f"{system.name}: no lateral oscillation at {speed:g} m/s")
-    return complex(linear.eigenvalues[chosen][0])
-
-
-def released_state(
-    model: WheelsetOnFrame, system: ExudynSystem, speed: float, offset: float
-) -> np.ndarray:
-    """Steady running, moved to the left by `offset` [m] with both wheels on their rails."""
-    state = system.equilibrium(speed)
-    names = list(system.state_names)
-    at = names.index("y [m]")
-    geometry = contact_geometry(model.wheelset, model.track, [state[at], state[at] + offset])
-    state[at] += offset
-    state[names.index("roll [rad]")] += geometry.roll[1] - geometry.roll[0]
-    state[names.index("z [m]")] += geometry.z[1] - geometry.z[0]
-    return state
-
-
 def release(
     model: WheelsetOnFrame,
-    system: ExudynSystem,
     speed: float,
     offset: float,
     settings: exu.SimulationSettings,
+    duration: float | None = None,
     progress: bool = False,
-) -> Motion:
-    """Simulate the wheelset from `offset` [m] at `speed` [m/s]."""
-    _, mbs, items = model.build(speed, show=False)
-    sensors = _add_sensors(mbs, items)
-    mbs.Assemble()
-    _set_initial(mbs, system, released_state(model, system, speed, offset))
-    ending = simulate(mbs, settings, [items.contact], progress, description=f"{speed:6.2f} m/s")
-    columns = _columns(mbs, items, sensors, model.wheelset.radius)
-    y, centre = columns["y"], float(system.equilibrium(speed)[_lateral(system)])
-    columns["y_equilibrium"] = np.full(len(y), centre)
-    root = hunting_root(system, speed)
-    numbers: dict[str, Any] = {
+) -> tuple[dict[str, Any], Motion]:
+    """Let the wheelset go `offset` [m] beside the centre at `speed` [m/s]; numbers and motion."""
+    system = model.dynamic_system(settings=settings)
+    span, interval = output_of(settings, duration)
+    linear = linearise(system, speed)
+    if linear.hunting_row is None:
+        raise AnalysisError(f"{system.name}: no lateral oscillation at {speed:g} m/s")
+    root = complex(linear.eigenvalues[linear.hunting_row])
+    motion = simulate(system, speed, span, offset, interval=interval, progress=progress)
+    y = motion[f"{NAME}: y"]
+    beside = y - linear.state[system.lateral_indices[0]]
+    last_period = motion.time >= motion.time[-1] - 2.0 * np.pi / root.imag
+    forces = [motion.wheel(NAME, side)["normal_force [N]"].max() for side in ("left", "right")]
+    largest = min(LARGEST_GROWTH * abs(offset), LARGEST_AMPLITUDE)
+    finished = motion.outcome.ending is Ending.FINISHED
+    numbers = {
         "speed": speed,
-        "growth_rate_eigenvalue": root.real,
-        "frequency_eigenvalue": root.imag / (2.0 * np.pi),
-        "growth_rate_simulated": None,
-        "frequency_simulated": None,
+        **growth_beside(root, motion.time, beside, largest),
         "maximum_y": float(np.abs(y).max()),
-        "final_amplitude": _final_amplitude(columns["t"], y - centre, root),
-        "largest_normal_force": float(
-            max(columns["left_normal_force"].max(), columns["right_normal_force"].max())
-        ),
-        "simulated_time": ending.time,
-        "event": ending.event,
+        "final_amplitude": float(np.abs(beside[last_period]).max()),
+        "largest_normal_force": float(max(forces)),
+        "simulated_time": float(motion.time[-1]),
+        "ending": motion.outcome.ending.name,
+        "event": None if finished else str(motion.outcome),
     }
-    chosen = _linear_part(columns["t"], y - centre, offset, root)
-    try:
-        growth = measure_growth(columns["t"][chosen], y[chosen])
-        numbers["growth_rate_simulated"] = growth.rate
-        numbers["frequency_simulated"] = growth.frequency
-    except AnalysisError as error:
-        numbers["growth_rate_simulated_note"] = str(error)
-    return Motion(speed, columns, ending, numbers)
+    return numbers, motion
 
 
 def run(
@@ -169,132 +119,54 @@ def run(
     speeds: Sequence[float] | None = None,
     offset: float = OFFSET,
     settings: exu.SimulationSettings | None = None,
+    duration: float | None = None,
     progress: bool = False,
 ) -> tuple[dict[str, Any], list[Motion]]:
     """Numbers and motions at `speeds` [m/s], by default 0.85 and 1.15 of the critical speed.
 
-    After Ctrl-C the motions so far are returned; the last one's ending says so.
+    After Ctrl-C the motions so far are returned; the last one's outcome says so.
     """
     model = model or vehicle()
     settings = settings or load_settings(DEFAULT_SETTINGS)
-    if not (np.isfinite(offset) and 0.0 < abs(offset) < 0.03):
-        raise WheelsetError(f"offset = {offset!r} m: give a lateral offset up to 0.03, in metres")
-    system = model.dynamic_system()
-    critical: CriticalPoint | None = None
+    number("offset", abs(offset), "m", 1e-9, 0.03, "a lateral offset, in metres")
+    numbers: dict[str, Any] = {"critical_speed": None, "frequency": None, "offset": offset}
     try:
-        critical = linear_critical_speed(system, *SEARCHED_SPEEDS)
+        critical = linear_critical_speed(model, *SEARCHED_SPEEDS)
+        numbers |= {"critical_speed": critical.speed, "frequency": critical.frequency}
     except AnalysisError:
         if speeds is None:
             raise
     if speeds is None:
-        assert critical is not None
-        speeds = [factor * critical.speed for factor in FACTORS]
+        speeds = [factor * numbers["critical_speed"] for factor in FACTORS]
     for speed in speeds:
-        if not 0.1 <= speed <= 200.0:
-            raise WheelsetError(f"speed = {speed!r} m/s: give 0.1 to 200 m/s")
-    numbers: dict[str, Any] = {
-        "critical_speed": critical.speed if critical else None,
-        "frequency": critical.frequency if critical else None,
-        "offset": offset,
-        "runs": [],
-    }
+        number("speed", speed, "m/s", 0.1, 200.0)
     motions = []
+    numbers["runs"] = []
     for speed in speeds:
-        motion = release(model, system, float(speed), offset, settings, progress)
+        row, motion = release(model, float(speed), offset, settings, duration, progress)
+        numbers["runs"].append(row)
         motions.append(motion)
-        numbers["runs"].append(motion.numbers)
-        if motion.ending.interrupted:
+        if motion.outcome.ending is Ending.INTERRUPTED:
             break
     return numbers, motions
 
 
-def _add_sensors(mbs: Any, items: WheelsetItems) -> dict[str, int]:
-    types = exu.OutputVariableType
-    wanted = {"position": types.Position, "rotation": types.RotationMatrix}
-    return {
-        name: mbs.AddSensor(
-            SensorBody(
-                bodyNumber=items.body,
-                outputVariableType=what,
-                storeInternal=True,
-                writeToFile=False,
-            )
-        )
-        for name, what in wanted.items()
-    }
-
-
-def _columns(
-    mbs: Any, items: WheelsetItems, sensors: dict[str, int], radius: float
-) -> dict[str, np.ndarray]:
-    """What the sensors stored, by name."""
-    position = mbs.GetSensorStoredData(sensors["position"])
-    rotation = mbs.GetSensorStoredData(sensors["rotation"])[:, 1:].reshape(-1, 3, 3)
-    columns = {
-        "t": position[:, 0],
-        "x": position[:, 1],
-        "y": position[:, 2],
-        "z": position[:, 3] - radius,
-        "yaw": np.arctan2(-rotation[:, 0, 1], rotation[:, 1, 1]),
-        "roll": np.arcsin(rotation[:, 2, 1]),
-    }
-    for side, sensor in (("left", items.left_sensor), ("right", items.right_sensor)):
-        stored = mbs.GetSensorStoredData(sensor)
-        for index, name in enumerate(SENSOR_VALUES):
-            columns[f"{side}_{name}"] = stored[:, 1 + index]
-    return columns
-
-
-def _set_initial(mbs: Any, system: ExudynSystem, state: np.ndarray) -> None:
-    coordinates, velocities = system.expand(state)
-    initial = exu.ConfigurationType.Initial
-    mbs.systemData.SetODE2Coordinates(coordinates, initial)
-    mbs.systemData.SetODE2Coordinates_t(velocities, initial)
-
-
-def _lateral(system: ExudynSystem) -> int:
-    return list(system.state_names).index("y [m]")
-
-
-def _linear_part(t: np.ndarray, y: np.ndarray, offset: float, root: complex) -> np.ndarray:
-    """True in the longer of the stretches before and after the motion is too large to be linear."""
-    settled = t >= 2.0 * np.pi / root.imag
-    large = np.flatnonzero(np.abs(y) > min(LARGEST_GROWTH * abs(offset), LARGEST_AMPLITUDE))
-    if not len(large):
-        return settled
-    before = settled & (t < t[large[0]])
-    after = settled & (t > t[large[-1]])
-    return before if before.sum() >= after.sum() else after
-
-
-def _final_amplitude(t: np.ndarray, y: np.ndarray, root: complex) -> float:
-    """Largest |y| in the last period."""
-    return float(np.abs(y[t >= t[-1] - 2.0 * np.pi / root.imag]).max())
-
-
-def draw(path: Path, motions: Sequence[Motion], title: str) -> Path:
+def draw(path: Path, numbers: dict[str, Any], motions: Sequence[Motion], title: str) -> Path:
     """Motion, forces and contact positions, one column for each speed."""
     figure, axes = new_figure(5.6 * len(motions), 10.5, 5, len(motions), sharex="col", sharey=False)
-    for column, motion in zip(axes.T, motions, strict=True):
-        numbers = motion.numbers
-        draw_wheelset_motion(column, motion.columns, numbers["growth_rate_eigenvalue"])
-        measured = numbers["growth_rate_simulated"]
+    for column, motion, row in zip(axes.T, motions, numbers["runs"], strict=True):
+        draw_wheelset_motion(column, motion, NAME, complex(row["growth_rate_eigenvalue"]))
+        measured = row["growth_rate_simulated"]
         column[0].set_title(
-            f"{motion.speed:.2f} m/s: growth {numbers['growth_rate_eigenvalue']:+.3f} 1/s"
+            f"{motion.speed:.2f} m/s: growth {row['growth_rate_eigenvalue']:+.3f} 1/s"
             + ("" if measured is None else f", simulated {measured:+.3f} 1/s"),
             fontsize=10,
         )
-        if motion.ending.event:
-            column[0].axvline(motion.ending.time, color="black", linewidth=1.0)
-            column[0].annotate(
-                motion.ending.event.split(":")[1].strip() if ":" in motion.ending.event else "end",
-                (motion.ending.time, 0.95),
-                xycoords=("data", "axes fraction"),
-                ha="right",
-                va="top",
-                fontsize=8,
-                rotation=90,
-            )
+        if row["event"]:
+            column[0].axvline(motion.time[-1], color="black", linewidth=1.0)
+            words = motion.outcome.ending.sentence
+            at: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "ha": "right", "va": "top"}
+            column[0].annotate(words, (motion.time[-1], 0.97), fontsize=7, rotation=90, **at)
     figure.suptitle(title, fontsize=11)
     return write_figure(path, figure)
 
@@ -306,9 +178,9 @@ def draw_picture(path: Path, model: WheelsetOnFrame, motion: Motion) -> Path:
     container, mbs, _ = model.build(motion.speed, sensors=False)
     show_rails(mbs, model.track)
     mbs.Assemble()
-    farthest = int(np.argmax(np.abs(motion.columns["y"])))
-    image = render_motion(container, mbs, _poses(motion, [farthest]), size=(960, 600), smooth=2)[0]
-    return write_image(path, image)
+    farthest = int(np.argmax(np.abs(motion[f"{NAME}: y"])))
+    rows = motion.coordinates[[farthest]]
+    return write_image(path, render_motion(container, mbs, rows, size=(960, 600), smooth=2)[0])
 
 
 def draw_film(
@@ -320,56 +192,21 @@ def draw_film(
     container, mbs, _ = model.build(motion.speed, sensors=False)
     show_rails(mbs, model.track, -0.6, 2.4)
     mbs.Assemble()
-    t = motion.columns["t"]
-    times = np.arange(max(t[0], t[-1] - seconds), t[-1], 1.0 / rate)
+    end = motion.time[-1]
+    rows = np.searchsorted(motion.time, np.arange(max(0.0, end - seconds), end, 1.0 / rate))
     camera = Camera(
         azimuth=0.0, elevation=0.1, centre=(0.0, 0.73, 0.02), zoom=0.26, perspective=0.1
     )
-    frames = render_motion(
-        container, mbs, _poses(motion, np.searchsorted(t, times)), camera, size=(480, 360)
-    )
+    frames = render_motion(container, mbs, motion.coordinates[rows], camera, size=(480, 360))
     return write_film(path, frames, rate)
-
-
-def _poses(motion: Motion, rows: Sequence[int] | np.ndarray) -> np.ndarray:
-    """Exudyn coordinates of the wheelset, without its spin, at rows of the motion."""
-    from scipy.spatial.transform import Rotation
-
-    columns = motion.columns
-    poses = np.zeros((len(rows), 6))
-    for pose, row in zip(poses, rows, strict=True):
-        pose[:3] = columns["x"][row], columns["y"][row], columns["z"][row]
-        angles = [columns["yaw"][row], columns["roll"][row]]
-        pose[3:] = Rotation.from_euler("ZX", angles).as_rotvec()
-    return poses
 
 
 def show(numbers: dict[str, Any]) -> None:
     """Print growth rates beside eigenvalues and how each run ended."""
     if numbers["critical_speed"] is not None:
-        print(
-            f"\nlinear critical speed {numbers['critical_speed']:.3f} m/s "
-            f"at {numbers['frequency']:.3f} Hz"
-        )
-    print(
-        f"{'speed':>8s}{'growth':>11s}{'eigenvalue':>12s}{'frequency':>11s}{'eigenvalue':>12s}"
-        f"{'max |y|':>10s}{'final':>9s}"
-    )
-    print(
-        f"{'[m/s]':>8s}{'[1/s]':>11s}{'[1/s]':>12s}{'[Hz]':>11s}{'[Hz]':>12s}"
-        f"{'[mm]':>10s}{'[mm]':>9s}"
-    )
-    for row in numbers["runs"]:
-        growth, frequency = row["growth_rate_simulated"], row["frequency_simulated"]
-        print(
-            f"{row['speed']:8.2f}"
-            + ("          -" if growth is None else f"{growth:+11.4f}")
-            + f"{row['growth_rate_eigenvalue']:+12.4f}"
-            + ("          -" if frequency is None else f"{frequency:11.4f}")
-            + f"{row['frequency_eigenvalue']:12.4f}"
-            + f"{row['maximum_y'] * 1e3:10.3f}{row['final_amplitude'] * 1e3:9.3f}"
-            + (f"  {row['event']}" if row["event"] else "")
-        )
+        critical, frequency = numbers["critical_speed"], numbers["frequency"]
+        print(f"\nlinear critical speed {critical:.3f} m/s at {frequency:.3f} Hz")
+    print_growth(numbers["runs"])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -396,10 +233,6 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
         settings = load_settings(arguments.settings)
-        if arguments.duration is not None:
-            if not 0.01 <= arguments.duration <= 3600.0:
-                raise WheelsetError(f"duration = {arguments.duration!r} s: give 0.01 to 3600 s")
-            set_duration(settings, arguments.duration)
         contact = {"creep": arguments.creep}
         if arguments.friction is not None:
             contact["friction"] = arguments.friction
@@ -418,7 +251,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         seconds = warm_up()
         if progress:
             print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
-        numbers, motions = run(model, arguments.speed, arguments.offset, settings, progress)
+        numbers, motions = run(
+            model, arguments.speed, arguments.offset, settings, arguments.duration, progress
+        )
         out = arguments.out
         write_json(
             out / "single_wheelset.json",
@@ -427,19 +262,16 @@ def main(argv: Sequence[str] | None = None) -> int:
             settings=changed_settings(settings),
         )
         for motion in motions:
-            write_columns(
-                out / f"single_wheelset_{motion.speed:.2f}.csv",
-                motion.columns,
-            )
+            motion.write_csv(out / f"single_wheelset_{motion.speed:.2f}.csv")
         title = f"{model.name}: {model.wheelset.wheel.name} on {model.track.rail.name}"
         if numbers["critical_speed"] is not None:
             title += f", critical speed {numbers['critical_speed']:.2f} m/s"
-        draw(out / "single_wheelset.png", motions, title)
+        draw(out / "single_wheelset.png", numbers, motions, title)
         if arguments.picture:
             draw_picture(out / "single_wheelset_picture.png", model, motions[-1])
         if arguments.film:
             draw_film(out / "single_wheelset.gif", model, motions[-1])
-        if motions[-1].ending.interrupted:
+        if motions[-1].outcome.ending is Ending.INTERRUPTED:
             if progress:
                 show(numbers)
             raise KeyboardInterrupt

@@ -48,8 +48,8 @@ def main() -> Path:
     below, above = motions
     for motion, colour in ((above, RIGHT_COLOUR), (below, LEFT_COLOUR)):
         motion_panel.plot(
-            motion.columns["t"],
-            motion.columns["y"] * 1e3,
+            motion.time,
+            motion["wheelset: y"] * 1e3,
             color=colour,
             linewidth=1.2,
             label=f"{motion.speed:.1f} m/s",
@@ -64,8 +64,7 @@ def main() -> Path:
     locus = root_locus(model.dynamic_system(), speeds)
     marks = draw_root_locus(locus_panel, locus, 6.0)
     right.colorbar(marks, ax=locus_panel, label="speed [m/s]")
-    for motion, colour in ((above, RIGHT_COLOUR), (below, LEFT_COLOUR)):
-        found = motion.numbers
+    for found, colour in zip(numbers["runs"], (LEFT_COLOUR, RIGHT_COLOUR), strict=True):
         locus_panel.plot(
             found["growth_rate_eigenvalue"],
             found["frequency_eigenvalue"],

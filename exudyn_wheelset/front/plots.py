@@ -6,7 +6,7 @@ milliradians, degrees, kilonewtons and hertz, and say so.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.geometry.piecewise import COLUMNS, PiecewiseGeometry, geometry_columns
 from exudyn_wheelset.geometry.rigid import ContactGeometry
+from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.stability.linear.linearisation import RootLocus
 
 LEFT_COLOUR, RIGHT_COLOUR = "#1f6fb4", "#d1495b"
@@ -206,51 +207,34 @@ def draw_root_locus(
 
 
 def draw_wheelset_motion(
-    axes: Sequence[Axes], motion: Mapping[str, np.ndarray], growth_rate: float | None = None
+    axes: Sequence[Axes], motion: Motion, wheelset: str, root: complex | None = None
 ) -> None:
     """Lateral motion, yaw, normal forces, creep forces and contact positions into five axes.
 
-    motion: columns "t" [s], "y" [m], "yaw" [rad] and, for each side as "left_..." and
-    "right_...", "normal_force", "fx", "fy" [N] and "wheel_y" [m]. growth_rate [1/s]: draws the
-    envelope that the eigenvalue gives.
+    wheelset: its name in the motion. root [1/s]: draws the envelope that the eigenvalue gives.
     """
-    t = motion["t"]
+    t, y = motion.time, motion[f"{wheelset}: y"]
     lateral, yaw, normal, creep, place = axes
-    grows = np.argmax(np.abs(motion["y"])) > len(t) // 2
+    grows = np.argmax(np.abs(y)) > len(t) // 2
     corner: Any = "upper left" if grows else "upper right"
-    lateral.plot(t, motion["y"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
-    if growth_rate is not None:
-        centre = motion.get("y_equilibrium", np.zeros(1))[0]
-        envelope = abs(motion["y"][0] - centre) * np.exp(growth_rate * t)
-        limit = 1.15 * np.abs(motion["y"]).max()
-        envelope = np.where(envelope < limit, envelope, np.nan)
-        for sign in (1.0, -1.0):
-            lateral.plot(
-                t,
-                (centre + sign * envelope) * 1e3,
-                color=GREY,
-                linewidth=1.0,
-                linestyle="--",
-                label="growth of the eigenvalue" if sign > 0.0 else None,
-            )
+    lateral.plot(t, y * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
+    if root is not None:
+        envelope = abs(y[0]) * np.exp(root.real * t)
+        envelope = np.where(envelope < 1.15 * np.abs(y).max(), envelope, np.nan) * 1e3
+        style: dict[str, Any] = {"color": GREY, "linewidth": 1.0, "linestyle": "--"}
+        lateral.plot(t, envelope, label="growth of the eigenvalue", **style)
+        lateral.plot(t, -envelope, **style)
         lateral.legend(fontsize=8, frameon=False, loc=corner)
     lateral.set_ylabel("y [mm]")
-    yaw.plot(t, motion["yaw"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
+    yaw.plot(t, motion[f"{wheelset}: yaw"] * 1e3, color=WHEEL_COLOUR, linewidth=1.2)
     yaw.set_ylabel("yaw [mrad]")
     for side, colour in (("left", LEFT_COLOUR), ("right", RIGHT_COLOUR)):
-        normal.plot(
-            t, motion[f"{side}_normal_force"] / 1e3, color=colour, linewidth=1.0, label=side
-        )
-        creep.plot(t, motion[f"{side}_fx"] / 1e3, color=colour, linewidth=1.0, label=f"{side} Fx")
-        creep.plot(
-            t,
-            motion[f"{side}_fy"] / 1e3,
-            color=colour,
-            linewidth=0.9,
-            linestyle=":",
-            label=f"{side} Fy",
-        )
-        place.plot(t, motion[f"{side}_wheel_y"] * 1e3, color=colour, linewidth=1.0, label=side)
+        wheel = motion.wheel(wheelset, side)
+        own: dict[str, Any] = {"color": colour, "linewidth": 1.0}
+        normal.plot(t, wheel["normal_force [N]"] / 1e3, label=side, **own)
+        creep.plot(t, wheel["fx [N]"] / 1e3, label=f"{side} Fx", **own)
+        creep.plot(t, wheel["fy [N]"] / 1e3, linestyle=":", label=f"{side} Fy", **own)
+        place.plot(t, wheel["wheel_y [m]"] * 1e3, label=side, **own)
     normal.set_ylabel("normal force [kN]")
     creep.set_ylabel("creep force [kN]")
     place.set_ylabel("contact on wheel [mm]")

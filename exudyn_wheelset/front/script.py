@@ -7,7 +7,7 @@ import json
 import re
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -178,3 +178,20 @@ def run_script(
     elif show is not None:
         show(numbers)
     return 0
+
+
+def print_growth(rows: Sequence[Mapping[str, Any]]) -> None:
+    """Print growth rates and frequencies of motions beside those of the eigenvalues.
+
+    rows: speed, what `growth_beside` gives, maximum_y [m] and event of each motion.
+    """
+    print(f"{'speed':>8s}{'growth [1/s]':>24s}{'frequency [Hz]':>24s}{'max |y|':>10s}")
+    print(f"{'[m/s]':>8s}" + 2 * f"{'motion':>12s}{'eigenvalue':>12s}" + f"{'[mm]':>10s}")
+    for row in rows:
+        pairs = ""
+        for what in ("growth_rate", "frequency"):
+            found = row[f"{what}_simulated"]
+            pairs += f"{'-':>12s}" if found is None else f"{found:12.4f}"
+            pairs += f"{row[f'{what}_eigenvalue']:12.4f}"
+        event = f"  {row['event']}" if row["event"] else ""
+        print(f"{row['speed']:8.2f}{pairs}{row['maximum_y'] * 1e3:10.3f}{event}")

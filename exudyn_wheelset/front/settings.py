@@ -18,6 +18,7 @@ from typing import Any
 
 import exudyn as exu
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import SettingsError
 
 
@@ -128,3 +129,16 @@ def _converted(where: str, value: Any, default: Any) -> Any:
             f"give a {type(default).__name__} (the default is {default!r})"
         )
     return float(value) if isinstance(default, float) else value
+
+
+def output_of(
+    settings: exu.SimulationSettings, duration: float | None = None
+) -> tuple[float, float]:
+    """Duration and sampling interval [s] that settings ask of a simulation.
+
+    duration: what a script's option asks for in its place. Raises WheelsetError out of range.
+    """
+    integration = settings.timeIntegration
+    span = integration.endTime - integration.startTime if duration is None else duration
+    span = number("duration", span, "s", 0.01, 3600.0)
+    return span, min(span, settings.solution.sensors.writePeriod)

@@ -1,11 +1,14 @@
 """Growth rate and frequency of a simulated motion, by a fit that knows nothing of eigenvalues.
 
-The fit is the decaying or growing sinusoid nearest to the motion.
+The fit is the decaying or growing sinusoid nearest to the motion. Beside an eigenvalue it is taken
+where the motion is linear: after the first period, in which fast modes die away, and while it is
+small.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -57,3 +60,33 @@ def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
         frequency=float(abs(found.x[1])) / (2.0 * np.pi),
         residual=float(np.sqrt(np.mean(found.fun**2))),
     )
+
+
+def growth_beside(
+    root: complex, time: np.ndarray, y: np.ndarray, largest: float
+) -> dict[str, float | str | None]:
+    """Growth and frequency of a root [1/s] beside those of the motion y(time) about zero.
+
+    Measured in the longer of the stretches before and after |y| exceeds `largest`, after the first
+    period. The simulated ones are None, with a note, where there are no two periods of that.
+    """
+    numbers: dict[str, Any] = {
+        "growth_rate_eigenvalue": root.real,
+        "frequency_eigenvalue": root.imag / (2.0 * np.pi),
+        "growth_rate_simulated": None,
+        "frequency_simulated": None,
+    }
+    settled = time >= 2.0 * np.pi / root.imag
+    large = np.flatnonzero(np.abs(y) > largest)
+    if len(large):
+        before, after = settled & (time < time[large[0]]), settled & (time > time[large[-1]])
+        settled = before if before.sum() >= after.sum() else after
+    try:
+        growth = measure_growth(time[settled], y[settled])
+    except AnalysisError as error:
+        return {**numbers, "growth_rate_simulated_note": str(error)}
+    return {
+        **numbers,
+        "growth_rate_simulated": growth.rate,
+        "frequency_simulated": growth.frequency,
+    }
