@@ -135,6 +135,20 @@ def test_continuity_through_the_table_and_its_ends():
     assert np.abs(second[inside]).max() / 1.7e-4**2 < 0.12
 
 
+@pytest.mark.parametrize("end", [-40.0, 40.0])
+def test_straight_continuation_beyond_the_table(end):
+    """Logarithms of all results go on with the slope they have at the end, and stay straight."""
+
+    def values(t):
+        return np.log(hertz_from_load(1.0, math.exp(t), 1e5, **STEEL))
+
+    inside = (values(0.9999 * end) - values(0.9998 * end)) / (0.0001 * end)
+    outside = (values(1.1 * end) - values(1.05 * end)) / (0.05 * end)
+    # The slopes change by 1/t^2 a unit of t, 0.004 of them lie between.
+    np.testing.assert_allclose(outside, inside, atol=1e-5)
+    np.testing.assert_allclose(values(1.15 * end) - values(1.1 * end), 0.05 * end * outside, 1e-9)
+
+
 def test_no_contact():
     assert hertz_from_load(1.0, 1.0, -5.0, **STEEL) == (0.0, 0.0, 0.0, 0.0)
     assert hertz_from_approach(1.0, 1.0, 0.0, **STEEL) == (0.0, 0.0, 0.0)
