@@ -21,6 +21,7 @@ import pytest
 from exudyn_wheelset import Profile, Track, Wheelset
 from exudyn_wheelset.geometry.conicity import equivalent_conicity, kinematic_oscillation
 from exudyn_wheelset.geometry.rolling_radius import (
+    level_contact_geometry,
     rolling_radius_curve,
     rolling_radius_difference,
 )
@@ -121,6 +122,36 @@ def test_wheel_with_a_step_in_slope() -> None:
         # The step lies somewhere in a cell of 10 um of the data.
         assert value == pytest.approx(conicity_of(4.0 * quarter), rel=5e-3)
     assert step < 8.0e-3
+
+
+def test_contact_points_of_a_level_axle() -> None:
+    """Places, angles, radii and heights of unlike wheels, and the other line near the step."""
+    cone, shift = 0.12, step_shift() - 2.0e-5
+    body = wheelset(stepped_wheel(), shapes.cone(cone), RADIUS + 3.0e-4)
+    geometry = level_contact_geometry(body, arc_rail(), [shift])
+    tread, throat = (ARC * math.sin(math.atan(slope)) for slope in (TREAD, THROAT))
+    left, right = geometry.left, geometry.right
+    other = ARC * math.sin(math.atan(cone))
+    wanted = [
+        (left.wheel_y, -tread - shift), (left.rail_y, -tread), (left.angle, math.atan(TREAD)),
+        (left.radius, RADIUS + TREAD * (tread + shift)), (left.lead, 0.0),
+        (left.second_wheel_y, -throat - shift), (left.second_rail_y, -throat),
+        (right.wheel_y, shift - other), (right.rail_y, -other), (right.angle, math.atan(cone)),
+        (right.radius, RADIUS + 3.0e-4 + cone * (other - shift)), (right.lead, 0.0),
+    ]  # fmt: skip
+    for found, value in wanted:
+        assert found[0] == pytest.approx(value, abs=5e-8)
+    # The throat's line comes nearer by the slopes' difference over the shift left to the step.
+    assert left.second_gap[0] == pytest.approx(2.0e-5 * (THROAT - TREAD), abs=2e-9)
+    assert np.isnan(right.second_gap[0])
+    # Each wheel alone is lifted by its distance c - g y + R - R/cos; z is the mean of both.
+    lifts = [
+        TREAD * shift + ARC * (1.0 / math.cos(math.atan(TREAD)) - 1.0),
+        -cone * shift + ARC * (1.0 / math.cos(math.atan(cone)) - 1.0) + 3.0e-4,
+    ]
+    assert geometry.z[0] == pytest.approx(0.5 * sum(lifts), abs=2e-9)
+    assert geometry.roll[0] == 0.0 and geometry.yaw[0] == 0.0
+    assert geometry.y[0] == shift
 
 
 def test_stepped_wheel_beside_a_cone() -> None:
