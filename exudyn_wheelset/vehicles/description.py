@@ -152,7 +152,7 @@ class Load:
         put(self, "at", numbers(f"{what}: at (x, y, z)", self.at, 3, "m", -100.0, 100.0))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Vehicle:
     """Bodies, wheelsets and connections on a track.
 
@@ -200,6 +200,10 @@ class Vehicle:
         self._check_names()
         self._check_connections()
         self._check_on_track()
+
+    def __repr__(self) -> str:
+        parts = ", ".join(part.name for part in self.parts)
+        return f"Vehicle({self.name!r}: {parts}; {len(self.connections)} connections)"
 
     def _check_names(self) -> None:
         for kind, names in (
