@@ -1,8 +1,8 @@
 """Cooperrider's bogie in three dimensions against the lateral model, difference by difference.
 
 Seven coordinates by hand: y, psi of both wheelsets, y, psi, phi of the frame; each wheelset's roll
-follows the rails, phi = sigma y. Without anything beyond Kaas-Petersen's equations the Hopf point is
-that of his model; with all of the following it is that of the vehicle in Exudyn.
+follows the rails, phi = sigma y. Without anything beyond Kaas-Petersen's equations the Hopf point
+is that of his model; with all of the following it is that of the vehicle in Exudyn.
 - creep: slopes f11, f22 of the real patch and the conicity of the real profiles in place of his;
 - roll: lateral creepage (1 + (r + l tan delta) sigma) y'/V - psi with its force along the same
   motion, the inertia I_x sigma^2, primary springs between frame and rolled wheelset;

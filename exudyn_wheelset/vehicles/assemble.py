@@ -19,6 +19,7 @@ from exudyn.utilities import (
     LoadForceVector,
     MarkerBodyRigid,
     NodeGenericODE1,
+    ObjectConnectorCartesianSpringDamper,
     ObjectGenericODE1,
     ObjectGenericODE2,
     RigidBodyInertia,
@@ -41,6 +42,8 @@ from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.struts import block_of, strokes_at
 
+# Angular frequency [rad/s] of a vehicle on its drawbar, critically damped: slow beside all else.
+_DRAWBAR = 0.5
 _CURRENT = exu.ConfigurationType.Current
 
 
@@ -300,11 +303,29 @@ def _compiled_items(
 
 
 def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -> None:
-    """Let a vehicle whose wheels drive or brake keep its speed."""
+    """Let a vehicle whose wheels drive or brake keep its speed.
+
+    Beside the pull a soft drawbar to what moves along: the pull at another speed differs a little.
+    """
     if rest.pull == 0.0:
         return
-    body = parts[heaviest_part(vehicle)].body
-    marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} pulled", bodyNumber=body))
+    items = parts[heaviest_part(vehicle)]
+    marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} pulled", bodyNumber=items.body))
+    ahead = mbs.AddMarker(
+        MarkerBodyRigid(
+            name=f"{name} drawbar",
+            bodyNumber=mbs.CreateGround(),
+            localPosition=_reference(mbs, items.node).tolist(),
+        )
+    )
+    mbs.AddObject(
+        ObjectConnectorCartesianSpringDamper(
+            name=f"{name} drawbar",
+            markerNumbers=[ahead, marker],
+            stiffness=[vehicle.mass * _DRAWBAR**2, 0.0, 0.0],
+            damping=[2.0 * vehicle.mass * _DRAWBAR, 0.0, 0.0],
+        )
+    )
     mbs.AddLoad(
         LoadForceVector(name=f"{name} pull", markerNumber=marker, loadVector=[rest.pull, 0.0, 0.0])
     )

@@ -1,0 +1,94 @@
+"""Random vehicles of one to four axles: a result or an error of the package, never NaN.
+
+Masses, inertias, stiffnesses and places within what vehicles have; laws, profiles, gauges, driven
+axles and a body beside the middle at random. Each goes through equilibrium, linear critical speed
+and a second of motion.
+"""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+from exudyn_wheelset import (
+    Contact,
+    MaxwellDamper,
+    Spring,
+    Track,
+    Vehicle,
+    VehicleBuilder,
+    Wheelset,
+    WheelsetError,
+    linear_critical_speed,
+    static_equilibrium,
+)
+from exudyn_wheelset.systems.system import SimulationError
+from exudyn_wheelset.systems.vehicle_system import vehicle_system
+
+LAWS = ("polach", "shen-hedrick-elkins", "fastsim", "linear", "vermeulen-johnson", "polach-2005")
+
+
+def random_vehicle(seed: int) -> Vehicle:
+    random = np.random.default_rng(seed)
+    uniform = random.uniform
+    mass = uniform(800, 3000)
+    across = mass * uniform(0.3, 0.8)
+    axle = Wheelset(
+        mass,
+        (across, across * uniform(0.08, 0.3), across),
+        uniform(0.35, 0.6),
+        str(random.choice(["S1002", "AAR_1_20", "cone_0.05"])),
+        tape_half_distance=uniform(0.74, 0.76),
+    )
+    track = Track("UIC60", gauge=uniform(1.428, 1.445), inclination=random.choice([0, 0.025, 0.05]))
+    contact = Contact(
+        creep=str(random.choice(LAWS)),
+        friction=uniform(0.05, 0.6),
+        damping=float(random.choice([0, 1, 10])),
+    )
+    made = VehicleBuilder("random", track, contact)
+    places = np.cumsum(uniform(1.5, 6, random.integers(1, 5)))
+    places -= places.mean()
+    weight = uniform(3e3, 50e3)
+    long = weight * (np.ptp(places) + 4) ** 2 / 12
+    aside = random.choice([0.0, 0.0, uniform(-0.05, 0.05)])
+    centre = (uniform(-0.2, 0.2) if len(places) > 1 else 0.0, aside, uniform(1.0, 2.0))
+    body = made.body("body", weight, (weight * uniform(0.5, 1.3), long, long), centre)
+    for k, x in enumerate(places):
+        one = made.wheelset(f"axle {k}", axle, x=x, driven=random.random() < 0.1)
+        spring = Spring(10 ** uniform(5.3, 7.5, 3), 10 ** uniform(3, 4.7, 3))
+        damper = MaxwellDamper((0, 0, 1), 10 ** uniform(5.5, 7), 10 ** uniform(3, 4.6))
+        for y in (1.0, -1.0):
+            made.connect(spring, one, body, at=(x, y, one.z))
+            made.connect(damper, one, body, at=(x, y, one.z))
+    if len(places) == 1:
+        held = Spring((1e6, 1e6, 0, 1e5, 1e6, 1e5), (1e3, 1e3, 0, 1e3, 1e3, 1e3))
+        made.connect(held, body, made.ground, at=(0, 0, 1.0))
+    return made.finish()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_a_result_or_an_error_of_ours(seed):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            vehicle = random_vehicle(seed)
+            rest = static_equilibrium(vehicle)
+            assert np.isfinite(rest.residual)
+            system = vehicle_system(vehicle)
+            try:
+                assert np.isfinite(linear_critical_speed(system, 10.0, 120.0).speed)
+            except WheelsetError as error:
+                assert str(error).startswith("random: no ")
+            state = system.equilibrium(20.0)
+            assert np.all(np.isfinite(state))
+            state[list(system.lateral_indices)] += 1e-3
+            motion = system.simulate(state, 20.0, np.linspace(0.0, 1.0, 51))
+            assert np.all(np.isfinite(motion))
+        except SimulationError as error:
+            assert np.all(np.isfinite(error.states))
+        except WheelsetError as error:
+            assert len(str(error)) > 30
