@@ -4,11 +4,10 @@ CPU time, RK44 at 0.5 ms, hunting motion of a few millimetres; every figure is t
 turns taken in rotation, since machines are shared. Run `python benchmarks/vehicles.py`; --json
 prints the numbers only.
 
-(a) the DTU truck and a car on two of them, with Shen-Hedrick-Elkins, Polach, FASTSIM: seconds
-    simulated per second of CPU;
+(a) bogie, three-axle truck, DTU car and Manchester coach (its dampers in series with springs) with
+    Polach's law, polach-kalker and FASTSIM: seconds simulated per second of CPU;
 (b) 1, 2, 4, 8, 16 wheelsets under one body: time of an evaluation over that of one wheelset;
-(c) a step without contacts (the same car, its loads replaced by constant ones): what Exudyn
-    itself needs of it.
+(c) a step of the car without contacts: what Exudyn and the connections need of it.
 """
 
 from __future__ import annotations
@@ -20,10 +19,10 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn.utilities import RigidBodyInertia
 
-from exudyn_wheelset import dtu_truck
+from exudyn_wheelset import catalogue, wheelsets_of
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
+from exudyn_wheelset.vehicles.assemble import add_vehicle
 
 STEP = 5.0e-4
 SPEED = 40.0
@@ -40,37 +39,16 @@ def settings(steps: int) -> exu.SimulationSettings:
     return result
 
 
-def truck(**contact: Any) -> tuple[Any, Any]:
-    container, mbs, _ = dtu_truck(**contact).build(
-        SPEED, sensors=False, show=False, lateral_offset=2e-3
-    )
-    return container, mbs
-
-
-def car(contacts: bool = True, **contact: Any) -> tuple[Any, Any]:
-    """A body on two DTU trucks, each with half of its weight on it."""
-    model = dtu_truck(**contact)
+def vehicle(name: str, contacts: bool = True, **changes: Any) -> tuple[Any, Any]:
+    """A vehicle of the catalogue in a system of its own, its wheelsets beside the middle."""
     container = exu.SystemContainer()
     mbs = container.AddSystem()
-    height = model.wheelset.radius + model.rest_height() + model.axle_drop
-    centre = [0.0, 0.0, height + 1.1]
-    body = mbs.CreateRigidBody(
-        name="body",
-        inertia=RigidBodyInertia(mass=44388.0, inertiaTensor=np.diag([8.0e4, 2.2e6, 2.2e6])),
-        nodeType=exu.NodeType.RotationRotationVector,
-        referencePosition=centre,
-        gravity=[0.0, 0.0, -9.81],
-        returnDict=True,
-    )
-    for name, x in (("front", 8.9), ("rear", -8.9)):
-        items = model.create(
-            mbs, SPEED, position=(x, 0.0), car_body=body["bodyNumber"], car_centre=centre,
-            sensors=False, show=False, name=name, lateral_offset=2e-3,
-        )  # fmt: skip
-        if not contacts:
-            for one in items.wheelsets:
-                for load in (one.force_load, one.torque_load):
-                    mbs.SetLoadParameter(load, "loadVectorUserFunction", 0)
+    described = catalogue.vehicle(name, **changes)
+    add_vehicle(mbs, described, SPEED, show=False, sensors=False, lateral_offset=2e-3)
+    if not contacts:
+        for items in wheelsets_of(mbs):
+            for load in (items.force_load, items.torque_load):
+                mbs.SetLoadParameter(load, "loadVectorUserFunction", 0)
     return container, mbs
 
 
@@ -99,10 +77,10 @@ def cpu_of_a_step(models: dict[str, tuple[Any, Any]], steps: int, turns: int) ->
 
 
 def measure(steps: int = 1000, turns: int = 5) -> dict[str, Any]:
-    laws = ("shen-hedrick-elkins", "polach", "fastsim")
-    models = {f"truck, {law}": truck(creep=law) for law in laws}
-    models |= {f"car, {law}": car(creep=law) for law in laws}
-    models["car without contacts"] = car(contacts=False)
+    laws = ("polach", "polach-kalker", "fastsim")
+    names = ("cooperrider_bogie_3d", "three_axle_truck", "dtu_car", "manchester_coach")
+    models = {f"{name}, {law}": vehicle(name, creep=law) for name in names for law in laws}
+    models["dtu_car without contacts"] = vehicle("dtu_car", contacts=False)
     counts = (1, 2, 4, 8, 16)
     models |= {f"{count} wheelsets": wheelsets(count) for count in counts}
     steps_of = cpu_of_a_step(models, steps, turns)
@@ -114,7 +92,7 @@ def measure(steps: int = 1000, turns: int = 5) -> dict[str, Any]:
             str(count): steps_of[f"{count} wheelsets"] / steps_of["1 wheelsets"] for count in counts
         },
         "wheelset_evaluation_in_a_car_us": 1e6
-        * (steps_of["car, polach"] - steps_of["car without contacts"])
+        * (steps_of["dtu_car, polach"] - steps_of["dtu_car without contacts"])
         / 16.0,
         "step_us": {name: 1e6 * value for name, value in steps_of.items()},
     }
