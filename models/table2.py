@@ -29,7 +29,6 @@ from exudyn_wheelset.front.script import (
     run_script,
     script_parser,
 )
-from exudyn_wheelset.front.settings import changed_settings, load_settings
 from exudyn_wheelset.profiles import load_profile
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import root_locus
@@ -170,7 +169,7 @@ def show(numbers: dict[str, Any]) -> None:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    parser = script_parser(__doc__.splitlines()[0])
+    parser = script_parser(__doc__.splitlines()[0], settings=False)
     add_profile_options(
         parser,
         wheel=paper.WHEEL,
@@ -180,7 +179,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     )
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        settings = load_settings(arguments.settings)
         seconds = warm_up()
         if not arguments.json:
             print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
@@ -192,7 +190,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             arguments.out / "table2.json",
             numbers,
             published=PUBLISHED,
-            settings=changed_settings(settings),
             seconds=taken,
         )
         draw(arguments.out / "table2.png", numbers, profiles)

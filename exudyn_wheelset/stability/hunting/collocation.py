@@ -168,7 +168,7 @@ class Collocation:
     period_unit and speed_unit measure the changes of T and V; mirror is that of the orbits. A
     system without Jacobians of its own is differentiated by n one-sided differences a point, f
     being known there. `evaluations` counts right-hand sides, those of differences included,
-    `jacobians` Jacobian matrices of f.
+    `jacobians` Jacobian matrices of f, `newton_steps` the corrector's steps.
     """
 
     def __init__(
@@ -185,6 +185,7 @@ class Collocation:
         self.speed_unit = float(speed_unit)
         self.evaluations = 0
         self.jacobians = 0
+        self.newton_steps = 0
         kind = type(system)
         self._differences = (
             kind.jacobian is DynamicSystem.jacobian and kind.jacobians is DynamicSystem.jacobians

@@ -86,6 +86,7 @@ def solve_orbit(
     raw, norm = correction(orbit, defects)
     steps: list[Direction] = []
     for iteration in range(1, iterations + 1):
+        equations.newton_steps += 1
         step = _broyden(raw, steps)
         length = _relative_size(step, size, orbit, equations)
         if not np.isfinite(length):

@@ -103,6 +103,7 @@ def limit_cycles(
         "mirror_image": equations.mirror is not None,
         "right_hand_sides": equations.evaluations,
         "jacobians": equations.jacobians,
+        "newton_steps": equations.newton_steps,
         "seconds": time.perf_counter() - begun,
     }
     record = describe(system, "continuation", {**settings.record(), "speeds": [low, high]})
