@@ -175,7 +175,7 @@ class Placed:
 
 @pytest.mark.parametrize("hand", [0, 1])
 def test_hops_are_forgiven_and_hovering_is_not(hand):
-    """5 m in the air, a touch, 5 m in the air; then 10 m at a stretch. Looks every 2 ms at 20 m/s."""
+    """5 m in the air, a touch, 5 m in the air; then on and on. Looks every 2 ms at 20 m/s."""
     contact = Placed()
     watch = DerailmentWatch([contact])
     time = 0.0
