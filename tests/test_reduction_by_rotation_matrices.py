@@ -23,7 +23,7 @@ POSITION_OF = np.array(
 )
 ROTATIONS = np.array([[3, 2, 1], [9, 7, 0]])
 REFERENCE = np.array([[0.1, -0.2, 0.05], [-0.03, 0.02, 0.4]])
-POSITIONS, SIZE, FIRST = 11, 13, 2
+POSITIONS, SIZE, FIRST = 11, 13, 3
 STATE = POSITIONS + SIZE + FIRST
 
 
@@ -120,7 +120,7 @@ def test_rates_of_a_motion(seed):
     accelerations[3:6] = turn.apply(difference(body, seed))
     accelerations[9:12] = difference(body, other)
     mass = np.eye(SIZE) + 0.1 * np.random.default_rng(seed).normal(size=(SIZE, SIZE))
-    force = np.r_[mass @ accelerations, 0.3, -0.7]
+    force = np.r_[mass @ accelerations, 0.3, -0.7, 1.1]
     rate = np.zeros(STATE)
     state_rate(state, force, np.linalg.inv(mass), POSITION_OF, ROTATIONS, rate)
 
@@ -131,6 +131,6 @@ def test_rates_of_a_motion(seed):
     wanted[7:10] = difference(angles, other)
     wanted[POSITIONS : POSITIONS + SIZE] = accelerations
     wanted[POSITIONS + 3 : POSITIONS + 6] = difference(intermediate)
-    wanted[POSITIONS + SIZE :] = 0.3, -0.7
+    wanted[POSITIONS + SIZE :] = 0.3, -0.7, 1.1
     # Central differences of differences: (1e-4)^2 of third derivatives, rounding 1e-16/(1e-4)^2.
     np.testing.assert_allclose(rate, wanted, atol=2e-7)
