@@ -26,7 +26,7 @@ from exudyn_wheelset import (
     VehicleBuilder,
     Wheelset,
 )
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.struts import block_of, struts_of
 
 AXLE = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
@@ -85,10 +85,10 @@ class Joined:
         strokes = self.strokes if strokes is None else strokes
         kernel.connection_forces(np.asarray(q).ravel(), v, strokes, self.block)
         block = self.block
-        start, rates = int(block[kernel.H_FORCES]), int(block[kernel.H_RATES])
+        start, rates = int(block[layout.H_FORCES]), int(block[layout.H_RATES])
         forces = block[start : start + 18].reshape(3, 6).copy()
-        strokes = block[rates : rates + int(block[kernel.H_STATES])].copy()
-        return forces, strokes, block[kernel.H_ENERGY], block[kernel.H_POWER]
+        strokes = block[rates : rates + int(block[layout.H_STATES])].copy()
+        return forces, strokes, block[layout.H_ENERGY], block[layout.H_POWER]
 
 
 def turned(q, body, entry, step):

@@ -18,7 +18,7 @@ from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset import Element, Spring, Wheelset, catalogue, linearise
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.assemble import add_vehicle
 from exudyn_wheelset.vehicles.description import Axle
 
@@ -185,7 +185,7 @@ def test_axes_turn_with_the_truck_in_a_curve():
         data.SetODE2Coordinates(coordinates)
         items.connectors.energy(mbs)
         block, k = items.connectors.block, list(items.wheelsets).index("front leading")
-        start = int(block[kernel.H_FORCES]) + 6 * k
+        start = int(block[layout.H_FORCES]) + 6 * k
         forces.append(block[start : start + 3].copy())
     assert forces[1] - forces[0] == pytest.approx(
         turn.apply([0.0, -2.0 * 1.823e6 * 1e-3, 0.0]), abs=1e-3

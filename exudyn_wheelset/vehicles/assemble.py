@@ -34,7 +34,7 @@ from exudyn_wheelset.coupling.registration import (
     name_states,
 )
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import End
 from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part
@@ -56,9 +56,9 @@ class Connectors:
         self._states = states
         self._object: int | None = None
         self._data: Any = None
-        start = int(block[kernel.H_FORCES])
+        start = int(block[layout.H_FORCES])
         self._forces = block[start : start + 6 * len(nodes)]
-        start = int(block[kernel.H_RATES])
+        start = int(block[layout.H_RATES])
         self._rates = block[start : start + states]
         self._none = np.zeros(1)
 
@@ -69,14 +69,14 @@ class Connectors:
     def place(self, mbs: Any) -> None:
         """Look up where the coordinates stand in the assembled system."""
         self._data = mbs.systemData
-        start = int(self.block[kernel.H_BODY_ROWS])
+        start = int(self.block[layout.H_BODY_ROWS])
         for k, node in enumerate(self._nodes):
             first = int(self._data.GetNodeLTGODE2(node)[0])
-            self.block[start + k * kernel.BODY + kernel.FIRST] = first
+            self.block[start + k * layout.BODY + layout.FIRST] = first
         if self._object is not None:
             first = int(self._data.GetObjectLTGODE1(self._object)[0])
-            self.block[kernel.H_FIRST_STATE] = first
-        kernel.forget(self.block)
+            self.block[layout.H_FIRST_STATE] = first
+        layout.forget(self.block)
 
     def functions(self) -> tuple[Callable[..., Array], Callable[..., Array]]:
         """User functions of the ObjectGenericODE2 (forces) and the ObjectGenericODE1 (rates).
@@ -124,7 +124,7 @@ class Connectors:
             strokes,
             self.block,
         )
-        return float(self.block[kernel.H_ENERGY]), float(self.block[kernel.H_POWER])
+        return float(self.block[layout.H_ENERGY]), float(self.block[layout.H_POWER])
 
 
 @dataclass(frozen=True)
@@ -267,7 +267,7 @@ def _compiled_items(
     struts = [strut.moved(shift) for strut in rest.struts]
     block, states = block_of(vehicle, struts, rest.preloads, rest.drawn, rest.centres, carrier)
     connectors = Connectors(block, nodes, len(states))
-    if not int(block[kernel.H_LAWS]):
+    if not int(block[layout.H_LAWS]):
         return connectors, None, None
     forces_of, rates_of = connectors.functions()
     connector = mbs.AddObject(

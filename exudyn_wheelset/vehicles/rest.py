@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.balance import balance, given_preloads, inertias_of, weights
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
 from exudyn_wheelset.vehicles.rail_support import AxleRest, rail_wrench, rest_on_rails
@@ -161,10 +161,10 @@ class StaticForces:
         """Forces (n, 6) in a pose (n, 6) that lasts: moments in the parts' own axes."""
         count = len(pose)
         flat = np.ascontiguousarray(pose).ravel()
-        if int(self._block[kernel.H_STATES]):
+        if int(self._block[layout.H_STATES]):
             self._strokes[:] = strokes_at(self._block, flat)
         kernel.connection_forces(flat, np.zeros(6 * count), self._strokes, self._block)
-        start = int(self._block[kernel.H_FORCES])
+        start = int(self._block[layout.H_FORCES])
         forces = self._block[start : start + 6 * count].reshape(count, 6) + self._weights
         for lever, stiffness, preload in self._linear:
             strain = lever @ (pose - self._drawn).ravel()

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.description import GROUND, Axle, Connection, Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import Law
+from exudyn_wheelset.vehicles.frames import place_frames, rotation_between
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Strut:
     """One law between two bodies.
 
     connection; law: None for an element that adds its own items; lower, upper: numbers of the
-    bodies among the vehicle's parts, their count for the ground; axes: kernel.OF_LOWER, ...;
+    bodies among the vehicle's parts, their count for the ground; axes: layout.OF_LOWER, ...;
     points (2, 3) [m]: of both ends at rest, track frame; stiffness (6, 6): against loads that stay,
     track axes.
     """
@@ -86,17 +87,17 @@ def struts_of(vehicle: Vehicle, centres: Array) -> list[Strut]:
             line = at[1] - at[0]
             length = float(np.linalg.norm(line))
             stiffness = law.static_stiffness(line / length if length > 0.0 else line)
-            own_axes = kernel.OF_MIDDLE if law.middle else axes
+            own_axes = layout.OF_MIDDLE if law.middle else axes
             found.append(Strut(one, law, *ends, own_axes, at, stiffness))
     return found
 
 
 def _axes(lower: int, upper: int, axles: set[int], ground: int) -> int:
     if lower not in axles:
-        return kernel.OF_LOWER
+        return layout.OF_LOWER
     if upper == ground:
-        return kernel.OF_TRACK
-    return kernel.OF_LOWER if upper in axles else kernel.OF_UPPER
+        return layout.OF_TRACK
+    return layout.OF_LOWER if upper in axles else layout.OF_UPPER
 
 
 def block_of(
@@ -117,13 +118,13 @@ def block_of(
     if carrier is not None:
         rest, centres = np.vstack([rest, np.zeros(6)]), np.vstack([centres, carrier])
     count = len(centres)
-    bodies = np.zeros((count, kernel.BODY))
-    bodies[:, kernel.FIRST] = 6 * np.arange(count)
-    bodies[:, kernel.POSITION] = centres
+    bodies = np.zeros((count, layout.BODY))
+    bodies[:, layout.FIRST] = 6 * np.arange(count)
+    bodies[:, layout.POSITION] = centres
     for k, part in enumerate(vehicle.parts):
-        bodies[k, kernel.SPINS] = float(isinstance(part, Axle))
-    frames = np.zeros((count + 1, kernel.FRAME))
-    kernel.place_frames(rest.ravel(), np.zeros(6 * count), bodies, frames)
+        bodies[k, layout.SPINS] = float(isinstance(part, Axle))
+    frames = np.zeros((count + 1, layout.FRAME))
+    place_frames(rest.ravel(), np.zeros(6 * count), bodies, frames)
     rows: list[Array] = []
     pool: list[Array] = []
     states: list[Any] = []
@@ -132,43 +133,43 @@ def block_of(
         law = strut.law
         if law is None:
             continue
-        row = np.zeros(kernel.ROW)
-        row[[kernel.KIND, kernel.LOWER, kernel.UPPER]] = law.kind, strut.lower, strut.upper
-        row[kernel.AXES] = strut.axes
-        row[[kernel.STATE, kernel.POOL, kernel.STOP, kernel.BLOW_OFF]] = -1.0
+        row = np.zeros(layout.ROW)
+        row[[layout.KIND, layout.LOWER, layout.UPPER]] = law.kind, strut.lower, strut.upper
+        row[layout.AXES] = strut.axes
+        row[[layout.STATE, layout.POOL, layout.STOP, layout.BLOW_OFF]] = -1.0
         turned = []
         for body, point, place in zip(
             (strut.lower, strut.upper),
             strut.points,
-            (kernel.POINT_LOWER, kernel.POINT_UPPER),
+            (layout.POINT_LOWER, layout.POINT_UPPER),
             strict=True,
         ):
-            axes = frames[body, kernel.F_AXES].reshape(3, 3)
-            row[place] = axes.T @ (point - frames[body, kernel.F_CENTRE])
+            axes = frames[body, layout.F_AXES].reshape(3, 3)
+            row[place] = axes.T @ (point - frames[body, layout.F_CENTRE])
             turned.append(axes)
         line = strut.points[1] - strut.points[0]
-        own = turned[1] if strut.axes == kernel.OF_UPPER else turned[0]
-        if strut.axes == kernel.OF_TRACK:
+        own = turned[1] if strut.axes == layout.OF_UPPER else turned[0]
+        if strut.axes == layout.OF_TRACK:
             own = np.eye(3)
-        row[kernel.REFERENCE][:3] = own.T @ line
+        row[layout.REFERENCE][:3] = own.T @ line
         theta = np.zeros(3)
-        kernel.rotation_between(turned[0].ravel(), turned[1].ravel(), theta)
-        row[kernel.REFERENCE][3:] = theta
-        row[kernel.FORCE] = preload[:3]
-        row[kernel.MOMENT] = own.T @ preload[3:]
-        row[kernel.STIFFNESS], row[kernel.DAMPING] = law.stiffness, law.damping
-        row[kernel.DIRECTION] = law.direction
-        if law.kind == kernel.ROD:
-            row[kernel.LENGTH] = np.linalg.norm(line)
-            row[kernel.TENSION] = -preload[:3] @ line / row[kernel.LENGTH]
+        rotation_between(turned[0].ravel(), turned[1].ravel(), theta)
+        row[layout.REFERENCE][3:] = theta
+        row[layout.FORCE] = preload[:3]
+        row[layout.MOMENT] = own.T @ preload[3:]
+        row[layout.STIFFNESS], row[layout.DAMPING] = law.stiffness, law.damping
+        row[layout.DIRECTION] = law.direction
+        if law.kind == layout.ROD:
+            row[layout.LENGTH] = np.linalg.norm(line)
+            row[layout.TENSION] = -preload[:3] @ line / row[layout.LENGTH]
         if law.state is not None:
-            row[kernel.STATE] = len(states)
+            row[layout.STATE] = len(states)
             states.append((strut.connection.name, law.state))
         parts: list[tuple[int, Array]] = []
         if law.matrices is not None:
             both = np.concatenate([matrix.ravel() for matrix in law.matrices])
-            parts.append((kernel.POOL, both))
-        for entry, curve in ((kernel.STOP, law.stop), (kernel.BLOW_OFF, law.blow_off)):
+            parts.append((layout.POOL, both))
+        for entry, curve in ((layout.STOP, law.stop), (layout.BLOW_OFF, law.blow_off)):
             if curve is not None:
                 parts.append((entry, curve.pool()))
         for entry, content in parts:
@@ -176,35 +177,35 @@ def block_of(
             size += len(content)
             pool.append(content)
         rows.append(row)
-    laws = np.array(rows).reshape(-1, kernel.ROW)
-    block = kernel.new_block(bodies, laws, np.concatenate([*pool, np.zeros(1)]), len(states))
+    laws = np.array(rows).reshape(-1, layout.ROW)
+    block = layout.new_block(bodies, laws, np.concatenate([*pool, np.zeros(1)]), len(states))
     return block, states
 
 
 def strokes_at(block: Array, pose: Array) -> Array:
     """Strokes (k,) [m] at which no damper in series pulls, in a pose (6 n) that lasts."""
-    count, laws = int(block[kernel.H_BODIES]), int(block[kernel.H_LAWS])
-    start = int(block[kernel.H_BODY_ROWS])
-    bodies = block[start : start + count * kernel.BODY].reshape(count, kernel.BODY)
-    start = int(block[kernel.H_LAW_ROWS])
-    rows = block[start : start + laws * kernel.ROW].reshape(laws, kernel.ROW)
-    frames = np.zeros((count + 1, kernel.FRAME))
-    kernel.place_frames(pose, np.zeros(6 * count), bodies, frames)
-    strokes = np.zeros(int(block[kernel.H_STATES]))
+    count, laws = int(block[layout.H_BODIES]), int(block[layout.H_LAWS])
+    start = int(block[layout.H_BODY_ROWS])
+    bodies = block[start : start + count * layout.BODY].reshape(count, layout.BODY)
+    start = int(block[layout.H_LAW_ROWS])
+    rows = block[start : start + laws * layout.ROW].reshape(laws, layout.ROW)
+    frames = np.zeros((count + 1, layout.FRAME))
+    place_frames(pose, np.zeros(6 * count), bodies, frames)
+    strokes = np.zeros(int(block[layout.H_STATES]))
     for row in rows:
-        if row[kernel.STATE] < 0:
+        if row[layout.STATE] < 0:
             continue
         ends, turned = [], []
         for body, place in (
-            (row[kernel.LOWER], kernel.POINT_LOWER),
-            (row[kernel.UPPER], kernel.POINT_UPPER),
+            (row[layout.LOWER], layout.POINT_LOWER),
+            (row[layout.UPPER], layout.POINT_UPPER),
         ):
-            axes = frames[int(body), kernel.F_AXES].reshape(3, 3)
-            ends.append(frames[int(body), kernel.F_CENTRE] + axes @ row[place])
+            axes = frames[int(body), layout.F_AXES].reshape(3, 3)
+            ends.append(frames[int(body), layout.F_CENTRE] + axes @ row[place])
             turned.append(axes)
-        own = turned[1] if row[kernel.AXES] == kernel.OF_UPPER else turned[0]
-        if row[kernel.AXES] == kernel.OF_TRACK:
+        own = turned[1] if row[layout.AXES] == layout.OF_UPPER else turned[0]
+        if row[layout.AXES] == layout.OF_TRACK:
             own = np.eye(3)
-        along = own.T @ (ends[1] - ends[0]) - row[kernel.REFERENCE][:3]
-        strokes[int(row[kernel.STATE])] = along @ row[kernel.DIRECTION]
+        along = own.T @ (ends[1] - ends[0]) - row[layout.REFERENCE][:3]
+        strokes[int(row[layout.STATE])] = along @ row[layout.DIRECTION]
     return strokes

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exudyn_wheelset.checking import numbers
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.damper import STROKE
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
@@ -47,11 +47,11 @@ class AirSpring(Element):
 
     def laws(self) -> tuple[Law, ...]:
         """A spring, and a Maxwell branch where the surge has both its numbers."""
-        spring = Law(kernel.SPRING, stiffness=self.stiffness, damping=self.damping)
+        spring = Law(layout.SPRING, stiffness=self.stiffness, damping=self.damping)
         if self.surge_stiffness == 0.0 or self.surge_damping == 0.0:
             return (spring,)
         branch = Law(
-            kernel.DIRECTED,
+            layout.DIRECTED,
             stiffness=(self.surge_stiffness, 0.0, 0.0),
             damping=(self.surge_damping, 0.0, 0.0),
             direction=(0.0, 0.0, 1.0),

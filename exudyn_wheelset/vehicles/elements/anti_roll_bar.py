@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
@@ -35,4 +35,4 @@ class AntiRollBar(Element):
         """One matrix with the roll alone."""
         about_x = np.zeros((6, 6))
         about_x[3, 3] = 1.0
-        return (Law(kernel.MATRIX, matrices=(self.stiffness * about_x, self.damping * about_x)),)
+        return (Law(layout.MATRIX, matrices=(self.stiffness * about_x, self.damping * about_x)),)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from exudyn_wheelset.checking import numbers, positive
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
@@ -44,7 +44,7 @@ class AxleBox(Element):
         """Two springs."""
         return tuple(
             Law(
-                kernel.SPRING,
+                layout.SPRING,
                 stiffness=self.stiffness,
                 damping=self.damping,
                 shift=(0.0, side, 0.0),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from exudyn_wheelset.checking import number
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import checked_table, curve_of
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
@@ -44,7 +44,7 @@ class BumpStop(Element):
         """One stop."""
         return (
             Law(
-                kernel.DIRECTED,
+                layout.DIRECTED,
                 direction=self.direction,
                 stop=curve_of(self.table, self.play),
             ),

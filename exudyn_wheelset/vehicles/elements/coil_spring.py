@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exudyn_wheelset.checking import numbers
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
@@ -57,4 +57,4 @@ class CoilSpring(Element):
         """One matrix in the axes half way between both bodies."""
         stiffness = np.diag([*self.stiffness, self.bending, self.bending, self.torsion])
         damping = np.diag([*self.damping, 0.0, 0.0, 0.0])
-        return (Law(kernel.MATRIX, matrices=(stiffness, damping), middle=True),)
+        return (Law(layout.MATRIX, matrices=(stiffness, damping), middle=True),)

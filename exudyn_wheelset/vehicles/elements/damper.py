@@ -19,7 +19,7 @@ from typing import Any
 from exudyn_wheelset.checking import positive
 from exudyn_wheelset.coupling.registration import FirstOrderState
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import checked_table, curve_of
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
@@ -70,7 +70,7 @@ class MaxwellDamper(Element):
         """One damper in series."""
         return (
             Law(
-                kernel.DIRECTED,
+                layout.DIRECTED,
                 stiffness=(self.stiffness, 0.0, 0.0),
                 damping=(self.damping, 0.0, 0.0),
                 direction=self.direction,
@@ -119,7 +119,7 @@ class Damper(Element):
         in_series = self.series_stiffness is not None
         return (
             Law(
-                kernel.DIRECTED,
+                layout.DIRECTED,
                 stiffness=(self.series_stiffness or 0.0, 0.0, 0.0),
                 damping=(self.damping or 0.0, 0.0, 0.0),
                 direction=self.direction,

@@ -31,7 +31,7 @@ import numpy as np
 from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.coupling.registration import FirstOrderState
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import Curve
 
 Vector = tuple[float, float, float]
@@ -61,7 +61,7 @@ class End:
 class Law:
     """One row of the compiled kernel, which states the laws.
 
-    kind: of kernel.SPRING (stiffness, damping along three axes), MATRIX (6 x 6), DIRECTED (along
+    kind: of layout.SPRING (stiffness, damping along three axes), MATRIX (6 x 6), DIRECTED (along
     `direction`, with a stop over displacement and a blow-off table, in series with a spring if
     `state` is given) or ROD (along the line of its ends). shift (3) [m]: of both ends from the
     element's places. middle: axes half way between both bodies.
@@ -81,12 +81,12 @@ class Law:
     def static_stiffness(self, line: np.ndarray) -> np.ndarray:
         """(6, 6) against loads that stay; line (3): unit vector from the lower to the upper end."""
         matrix = np.zeros((6, 6))
-        if self.kind == kernel.SPRING:
+        if self.kind == layout.SPRING:
             matrix[:3, :3] = np.diag(self.stiffness)
-        elif self.kind == kernel.MATRIX:
+        elif self.kind == layout.MATRIX:
             assert self.matrices is not None
             matrix[:] = self.matrices[0]
-        elif self.kind == kernel.ROD:
+        elif self.kind == layout.ROD:
             matrix[:3, :3] = self.stiffness[0] * np.outer(line, line)
         elif self.state is None:
             slope = 0.0 if self.stop is None else self.stop.slope(0.0)

@@ -13,7 +13,7 @@ import numpy as np
 
 from exudyn_wheelset.checking import numbers
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
@@ -45,8 +45,8 @@ class Spring(Element):
     def laws(self) -> tuple[Law, ...]:
         """Three springs, or one of a matrix."""
         if len(self.stiffness) == 3 and len(self.damping) == 3:
-            return (Law(kernel.SPRING, stiffness=self.stiffness, damping=self.damping),)
-        return (Law(kernel.MATRIX, matrices=(_matrix(self.stiffness), _matrix(self.damping))),)
+            return (Law(layout.SPRING, stiffness=self.stiffness, damping=self.damping),)
+        return (Law(layout.MATRIX, matrices=(_matrix(self.stiffness), _matrix(self.damping))),)
 
     def mirrored(self) -> Spring:
         """The spring as a mirror shows it."""

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from exudyn_wheelset.checking import positive
-from exudyn_wheelset.vehicles import kernel
+from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
@@ -52,7 +52,7 @@ class TractionRod(Element):
         """One rod."""
         return (
             Law(
-                kernel.ROD,
+                layout.ROD,
                 stiffness=(self.stiffness, 0.0, 0.0),
                 damping=(self.damping, 0.0, 0.0),
             ),
