@@ -169,6 +169,22 @@ def errors(
     return np.array(rows)
 
 
+def noisy_rails() -> None:
+    """Errors of conicity from noise on the rail: S1002 on UIC60, whose curvature has steps."""
+    wheel, rail = load_profile("S1002"), load_profile("UIC60")
+    exact = conicity(wheel, Track(rail))
+    for spacing in (1e-4, 2.5e-4):
+        for deviation in 1e-6 * np.array([5.0, 10.0, 20.0]):
+            samples = [
+                conicity(wheel, Track(with_noise(rail, deviation, spacing, seed).smoothed("auto")))
+                for seed in SEEDS
+            ]
+            print(
+                f"noise on UIC60, {1e3 * spacing:g} mm, {1e6 * deviation:4.1f} um: worst "
+                f"{np.round(np.max(np.abs(np.array(samples) - exact), axis=0), 4)}"
+            )
+
+
 def measured_pairs() -> None:
     """Worn wheels with noise put on, and a measured one as it is, smoothed here and by others."""
     rail = Track(load_profile(MEASURED / "siteb.prr"), inclination=0.0)
@@ -188,6 +204,7 @@ def main() -> None:
     warnings.simplefilter("ignore", WheelsetWarning)
     curvature_figure()
     conicity_figure()
+    noisy_rails()
     if MEASURED.is_dir():
         measured_pairs()
 
