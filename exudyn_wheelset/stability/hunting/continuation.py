@@ -46,7 +46,7 @@ from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 
 # The first orbit's speed is to lie this near to the Hopf point's, relative to it.
-FIRST_SPEED = 2e-3
+FIRST_SPEED = 5e-3
 
 
 @dataclass(frozen=True, eq=False)

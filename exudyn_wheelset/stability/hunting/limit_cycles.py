@@ -29,7 +29,8 @@ from exudyn_wheelset.stability.hunting.continuation import (
     hopf_start,
 )
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
-from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
+from exudyn_wheelset.stability.hunting.settled_branch import settled_branch
 from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of_orbit
 from exudyn_wheelset.stability.hunting.watching import watched_index
@@ -51,7 +52,9 @@ def limit_cycles(
 
     `start` is a Hopf point of `hopf_points`; an `Orbit`; or a state (n,) at `start_speed` [m/s]
     (default: the upper end of `speeds`), from which the vehicle is simulated until it hunts
-    steadily. From a Hopf point the branch is followed one way, from elsewhere both ways.
+    steadily; where Newton's method cannot close that motion to an orbit, because the model jumps,
+    its stable part is followed by settled motions (`method` says so). From a Hopf point the branch
+    is followed one way, from elsewhere both ways.
     Settings are those of `ContinuationSettings`, whole or one by one (`intervals=40`).
 
     A branch says how it ends (`outcome`, in words `reason`) and keeps what was found. Raises
@@ -84,13 +87,13 @@ def limit_cycles(
                 orbit = start
             else:
                 at = high if start_speed is None else float(start_speed)
-                orbit = orbit_near(
-                    system,
-                    np.asarray(start, dtype=float),
-                    at,
-                    intervals=settings.intervals,
-                    degree=settings.degree,
-                )
+                state = np.asarray(start, dtype=float)
+                try:
+                    orbit = orbit_near(
+                        system, state, at, intervals=settings.intervals, degree=settings.degree
+                    )
+                except OrbitError as error:
+                    return settled_branch(system, state, at, (low, high), str(error))
             mirror = mirror_of_orbit(system, orbit) if settings.mirror else None
             orbit = orbit.whole() if mirror is None else orbit.halved(mirror)
             equations = Collocation(system, orbit.period, high - low, mirror)

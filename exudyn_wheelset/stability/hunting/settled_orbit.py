@@ -34,6 +34,25 @@ def orbit_near(
     `period` [s] is a rough guess, taken from the least damped mode if left out. Raises
     AnalysisError if the motion dies out or leaves the model, or if Newton does not converge.
     """
+    motion = settled_motion(system, state, speed, period, watch, settling)
+    guess = orbit_of(motion, intervals, degree)
+    equations = Collocation(system, guess.period, max(1.0, abs(speed)))
+    row = speed_row(guess, len(system.scales))
+    return solve_orbit(equations, guess, row, tolerance=1e-8, iterations=40).orbit
+
+
+def settled_motion(
+    system: DynamicSystem,
+    state: Array,
+    speed: float,
+    period: float | None = None,
+    watch: str | int | None = None,
+    settling: Settling | None = None,
+) -> WatchedMotion:
+    """The motion from a state (n,), simulated until it hunts steadily.
+
+    Raises AnalysisError if it dies out or leaves the model.
+    """
     watched = watched_trucks(system, watch)
     period = period or typical_period(system, speed)
     motion = WatchedMotion(system, speed, state, period, watched, settling or Settling())
@@ -44,22 +63,22 @@ def orbit_near(
             f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; start from "
             "a larger disturbance or another speed"
         )
+    return motion
+
+
+def orbit_of(motion: WatchedMotion, intervals: int = INTERVALS, degree: int = DEGREE) -> Orbit:
+    """The cycle that a settled motion is on, as simulated: closed to what it has settled to."""
+    system, speed = motion.system, motion.speed
     times = np.linspace(0.0, 2.2 * motion.period, 1 + round(2.2 * 400))
     states = system.simulate(motion.state, speed, times)
     sizes = motion.truck_amplitudes()
-    signal = states[:, watched[max(sizes, key=lambda name: sizes[name])]]
+    signal = states[:, motion.watched[max(sizes, key=lambda name: sizes[name])]]
     middle = 0.5 * (signal.max() + signal.min())
     start = int(np.flatnonzero((signal[:-1] <= middle) & (signal[1:] > middle))[0])
     # The period is where the motion comes closest to a state on the cycle.
     apart = np.linalg.norm((states[start:] - states[start]) / system.scales, axis=1)
     low, high = np.searchsorted(times, times[start] + np.array([0.7, 1.3]) * motion.period) - start
-    back = low + int(np.argmin(apart[low:high]))
+    length = times[start + low + int(np.argmin(apart[low:high]))] - times[start]
     count = intervals * degree
-    cycle = system.simulate(
-        states[start], speed, np.linspace(0.0, times[start + back] - times[start], count + 1)
-    )
-    length = times[start + back] - times[start]
-    guess = orbit_from_samples(cycle, length, speed, intervals, degree)
-    equations = Collocation(system, length, max(1.0, abs(speed)))
-    row = speed_row(guess, len(system.scales))
-    return solve_orbit(equations, guess, row, tolerance=1e-8, iterations=40).orbit
+    cycle = system.simulate(states[start], speed, np.linspace(0.0, length, count + 1))
+    return orbit_from_samples(cycle, length, speed, intervals, degree)
