@@ -27,7 +27,7 @@ from exudyn_wheelset import (
     Wheelset,
 )
 from exudyn_wheelset.vehicles import kernel, layout
-from exudyn_wheelset.vehicles.struts import block_of, struts_of
+from exudyn_wheelset.vehicles.struts import block_of, strokes_at, struts_of
 
 AXLE = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
 STIFF = (3.0e6, 2.0e6, 1.0e6)
@@ -77,6 +77,7 @@ class Joined:
         preloads = np.array([share for _ in self.struts])
         rest = np.zeros((3, 6))
         self.block, states = block_of(self.vehicle, self.struts, preloads, rest, self.centres)
+        self.states = len(states)
         self.strokes = np.zeros(max(len(states), 1))
 
     def evaluate(self, q, v=None, strokes=None):
@@ -357,3 +358,35 @@ def test_an_axle_box_does_not_feel_the_spin():
             forces = joined.evaluate(q)[0]
             moments.append((forces[1, 3:] + np.cross(arm, forces[1, :3]))[axis])
         assert -(moments[0] - moments[1]) / (2 * tip) == pytest.approx(stiffness, abs=1e-2 * 4e6)
+
+
+@pytest.mark.parametrize("name", ELEMENTS)
+def test_static_stiffness_is_the_slope_of_the_force(name):
+    """What statics shares loads by, against differences of the kernel's forces at rest.
+
+    Displacements and turns of the upper end about the connection's place, no preload; strokes
+    follow so that dampers in series do not pull.
+    """
+    element = ELEMENTS[name]
+    ends = ("axle", "frame") if name == "axle box" else ("frame", "body")
+    joined = Joined(element, *ends, preload=np.zeros(6))
+    upper = 1 if name == "axle box" else 2
+    place = np.array(element.places(AT[ends[0]])[1])
+    arm = joined.centres[upper] - place
+    step = 1e-6
+    found = np.zeros((6, 6))
+    for entry in range(6):
+        sides = []
+        for sign in (1.0, -1.0):
+            small = np.zeros(6)
+            small[entry] = sign * step
+            q = np.zeros((3, 6))
+            q[upper, :3] = small[:3] + np.cross(small[3:], arm)
+            q[upper, 3:] = small[3:]
+            strokes = strokes_at(joined.block, q.ravel()) if joined.states else None
+            forces = joined.evaluate(q, strokes=strokes)[0][upper]
+            sides.append(np.concatenate([forces[:3], forces[3:] + np.cross(arm, forces[:3])]))
+        found[:, entry] = -(sides[0] - sides[1]) / (2.0 * step)
+    stiffness = element.static_stiffness()
+    # Turning by a micrometre per metre: rounding of 1e-5 of the largest stiffness.
+    assert found == pytest.approx(stiffness, abs=1e-5 * max(1e3, np.abs(stiffness).max()))

@@ -12,11 +12,20 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 import pytest
-from exudyn.utilities import ObjectConnectorCartesianSpringDamper
+from exudyn.utilities import ObjectConnectorCartesianSpringDamper, RigidBodyInertia
 from scipy.integrate import cumulative_simpson
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset import Element, Spring, Wheelset, catalogue, linearise
+from exudyn_wheelset import (
+    Element,
+    ExudynSystem,
+    Spring,
+    Wheelset,
+    catalogue,
+    dtu_truck,
+    linearise,
+    static_equilibrium,
+)
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.assemble import add_vehicle
@@ -190,3 +199,41 @@ def test_axes_turn_with_the_truck_in_a_curve():
     assert forces[1] - forces[0] == pytest.approx(
         turn.apply([0.0, -2.0 * 1.823e6 * 1e-3, 0.0]), abs=1e-3
     )
+
+
+def test_two_trucks_under_a_body_are_the_car():
+    """Trucks whose secondary springs stand under a body of the model, against the whole vehicle."""
+    truck = dtu_truck()
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    height = truck.wheelset.radius + truck.rest_height() + truck.axle_drop + 1.5584
+    body = mbs.CreateRigidBody(
+        name="body",
+        inertia=RigidBodyInertia(mass=44388.0, inertiaTensor=np.diag([2.8e5, 5e5, 5e5])),
+        nodeType=exu.NodeType.RotationRotationVector,
+        referencePosition=[0.0, 0.0, height],
+        gravity=[0.0, 0.0, -GRAVITY],
+        returnDict=True,
+    )
+    for name, x in (("front", 7.5), ("rear", -7.5)):
+        truck.create(
+            mbs, 20.0, position=(x, 0.0), car_body=body["bodyNumber"], show=False, name=name
+        )
+    together = linearise(ExudynSystem(mbs, container), 40.0).eigenvalues
+    car = linearise(catalogue.dtu_car(), 40.0).eigenvalues
+    for root in car[(car.imag > 1.0) & (np.abs(car) < 100.0)]:
+        assert np.abs(together - root).min() < 1e-6 * abs(root)
+
+
+def test_a_driven_axle_pulls_and_the_vehicle_is_held():
+    """Wheels that roll beside the tape circle, held at V/r0: their creep force is the pull."""
+    car = catalogue.dtu_car().replace("wheelsets.front leading.driven", True)
+    rest = static_equilibrium(car)
+    assert rest.residual < 1e-6
+    system = vehicle_system(car)
+    slip = rest.radii["front trailing"] / 0.425 - 1.0
+    # On a smaller radius the rim is slower than the ground: it brakes, and is pulled. 14.3 MN a
+    # wheel is the slope of the creep law there.
+    assert np.sign(rest.pull) == -np.sign(slip)
+    assert 10.0 < abs(rest.pull) <= 2 * 14.5e6 * abs(slip)
+    assert np.all(np.isfinite(system.equilibrium(20.0)))
