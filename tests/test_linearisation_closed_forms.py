@@ -197,3 +197,19 @@ def test_what_can_be_analysed():
         as_system({})
     with pytest.raises(AnalysisError, match="scales must be 2 positive"):
         FunctionSystem("wrong", lambda x, v: x, ["a", "b"], [1.0, 0.0])
+
+
+def test_roots_that_cross_are_followed_straight_on():
+    """Two frequencies that pass each other between two speeds, which are not equally spaced.
+
+    The nearest root to the last one would be the other one's; the extrapolated one is its own.
+    """
+    system = linear_system(
+        lambda speed: (-1.0, 7.0 + 0.2 * (speed - 30.0)),
+        lambda speed: (-1.0, 7.0 - 0.2 * (speed - 30.0)),
+    )
+    speeds = np.array([20.0, 24.0, 27.5, 32.5, 34.0, 40.0])
+    locus = root_locus(system, speeds)
+    slopes = np.diff(locus.eigenvalues.imag, axis=0) / np.diff(speeds)[:, None]
+    np.testing.assert_allclose(slopes, np.tile(slopes[0], (len(speeds) - 1, 1)), atol=1e-6)
+    assert sorted(np.round(slopes[0], 6)) == [-0.2, -0.2, 0.2, 0.2]

@@ -6,6 +6,7 @@ import pytest
 
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import linearise
+from exudyn_wheelset.stability.linear.modes import hunting_share
 from exudyn_wheelset.systems.system import FunctionSystem
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
@@ -76,6 +77,15 @@ def test_a_mode_is_named_by_what_moves_in_it(moves, frequency, name):
     found = linearise(system, 10.0)
     row = np.argmin(np.abs(found.eigenvalues - (-0.1 + 2j * np.pi * frequency)))
     assert found.mode_names[row] == name
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e3])
+def test_the_share_of_hunting_does_not_know_how_large_a_mode_is(size):
+    """The wheelsets move 0.4 where the largest displacement, the body's, is 1."""
+    mode = size * np.array(shape(fyaw=-0.4, y=1.0))
+    system = prescribed((shape(y=1.0), lambda _: -1.0, 1.0))
+    assert hunting_share(system, np.r_[mode, 0.0 * mode]) == pytest.approx(0.4)
+    assert hunting_share(system, np.zeros(2 * len(mode))) == 0.0
 
 
 def test_hunting_is_found_beside_a_longitudinal_mode_that_grows():

@@ -1,0 +1,86 @@
+"""What a descent reads from amplitudes, and a branch from multipliers, where the answer is known.
+
+Amplitudes are those of the radial equation of an averaged oscillation, x' = f(x), solved in closed
+form at equal times: leaving an unstable limit cycle, decaying to rest, approaching a stable cycle.
+Multipliers cross the unit circle where they are put.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.stability.hunting.floquet import Multipliers
+from exudyn_wheelset.stability.hunting.limit_cycles import _stability_changes
+from exudyn_wheelset.stability.hunting.settling import FAR_DOWN, TREND, _falls_away, _judge
+
+BLOCKS = np.arange(40)
+
+
+def leaving_an_unstable_cycle(start=0.97, rate=0.15):
+    """x' = -rate x (1 - x^2)/2: x^2/(1 - x^2) = C exp(-rate t), the cycle of amplitude 1 repels."""
+    constant = start**2 / (1.0 - start**2)
+    square = constant * np.exp(-rate * BLOCKS)
+    return np.sqrt(square / (1.0 + square))
+
+
+def approaching_a_stable_cycle(start=1.0, end=0.3, rate=0.15):
+    """x' = rate (end - x)."""
+    return end + (start - end) * np.exp(-rate * BLOCKS)
+
+
+def test_a_fall_that_speeds_up_leaves_an_unstable_cycle():
+    """As long as it does: far below the cycle the fall is steady."""
+    means = list(leaving_an_unstable_cycle())
+    fast = np.flatnonzero(np.array(means) > 0.5)[-1]
+    assert fast > 2 * TREND
+    for count in range(TREND + 1, fast):
+        assert _falls_away(means[:count])
+    assert not _falls_away(means[:TREND])
+
+
+def test_a_fall_that_slows_down_goes_to_a_stable_cycle():
+    means = list(approaching_a_stable_cycle())
+    for count in range(TREND + 1, len(means)):
+        assert not _falls_away(means[:count])
+    assert not _falls_away(means[::-1])
+    assert not _falls_away([1.0] * 20)
+
+
+def test_amplitudes_are_judged_by_where_they_go():
+    settled = _judge(list(approaching_a_stable_cycle()), rest=1e-3, tolerance=0.01)
+    assert settled is Ending.SETTLED
+    early = _judge(list(approaching_a_stable_cycle()[:8]), rest=1e-3, tolerance=0.01)
+    assert early is Ending.UNDECIDED
+    # A steady decay, once it is far down, is the end of it; so is an amplitude below rest.
+    decay = np.exp(-0.2 * BLOCKS)
+    far = int(np.flatnonzero(decay < FAR_DOWN)[0])
+    assert _judge(list(decay[: far - 1]), rest=1e-9, tolerance=0.01) is Ending.UNDECIDED
+    assert _judge(list(decay[: far + 1]), rest=1e-9, tolerance=0.01) is Ending.DIED_OUT
+    assert _judge(list(decay[:20]), rest=0.05, tolerance=0.01) is Ending.DIED_OUT
+    growth = list(decay[:20][::-1])
+    assert _judge(growth, rest=1e-9, tolerance=0.01) is Ending.UNDECIDED
+
+
+@pytest.mark.parametrize(
+    ("kind", "crossing"),
+    [("torus", np.exp(0.8j)), ("period doubling", -1.0), ("branch point", 1.0)],
+)
+def test_stability_changes_are_named_by_the_multiplier_that_crosses(kind, crossing):
+    """Between 50 and 54 m/s it grows from 0.94 to 1.02 in size: it crosses at 53 m/s."""
+
+    def point(speed, size):
+        pair = [crossing] if np.isreal(crossing) else [crossing, np.conj(crossing)]
+        values = np.array([*(size * np.array(pair)), 0.3, -0.2], dtype=complex)
+        return SimpleNamespace(
+            is_fold=False,
+            orbit=SimpleNamespace(speed=speed),
+            multipliers=Multipliers(values, error=1e-9, neutral=0),
+        )
+
+    points = [point(46.0, 0.86), point(50.0, 0.94), point(54.0, 1.02), point(58.0, 1.1)]
+    changes = _stability_changes(points, 1e-4)
+    assert [change.kind for change in changes] == [kind]
+    assert changes[0].speed == pytest.approx(53.0)
+    assert _stability_changes(points[2:], 1e-4) == []
