@@ -237,3 +237,16 @@ def test_a_driven_axle_pulls_and_the_vehicle_is_held():
     assert np.sign(rest.pull) == -np.sign(slip)
     assert 10.0 < abs(rest.pull) <= 2 * 14.5e6 * abs(slip)
     assert np.all(np.isfinite(system.equilibrium(20.0)))
+
+
+def test_the_step_follows_a_stiff_damper_in_series():
+    """A relaxation time c/k of 0.1 ms: beyond RK44 at 0.5 ms (2.78 c/k), followed by 0.2 ms."""
+    coach = catalogue.manchester_coach()
+    assert vehicle_system(coach).step == 5e-4
+    stiff = coach.replace("connections.vertical damper.stiffness", 20.0e3 / 1e-4)
+    system = vehicle_system(stiff)
+    assert system.step == pytest.approx(2e-4)
+    state = system.initial_state(30.0)
+    state[system.state_names.index("body: vz [m/s]")] += 0.05
+    motion = system.simulate(state, 30.0, np.linspace(0.0, 1.0, 21))
+    assert np.abs(motion[:, system.state_names.index("body: z [m]")]).max() < 0.02
