@@ -10,10 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
 from exudyn_wheelset.stability.hunting.floquet import Multipliers
 from exudyn_wheelset.stability.hunting.limit_cycles import _stability_changes
 from exudyn_wheelset.stability.hunting.settling import FAR_DOWN, TREND, _falls_away, _judge
+from exudyn_wheelset.systems.system import FunctionSystem
 
 BLOCKS = np.arange(40)
 
@@ -84,3 +87,23 @@ def test_stability_changes_are_named_by_the_multiplier_that_crosses(kind, crossi
     assert [change.kind for change in changes] == [kind]
     assert changes[0].speed == pytest.approx(53.0)
     assert _stability_changes(points[2:], 1e-4) == []
+
+
+def bautin(state, speed):
+    """r' = r (eps + r^2 - r^4), one turn a second; eps = (speed - 100)/100."""
+    x, y = state
+    square = x * x + y * y
+    growth = 0.01 * (speed - 100.0) + square - square**2
+    return np.array([growth * x - 2.0 * np.pi * y, 2.0 * np.pi * x + growth * y])
+
+
+def test_a_descent_starts_as_large_as_it_is_told():
+    """At 90 m/s an unstable cycle of radius 0.336 parts rest from hunting: eps = -0.1."""
+    system = FunctionSystem("bautin", bautin, ["x [m]", "y [m]"], [0.1, 0.1])
+    # The mode's two displacements are equal: 4.5 scales of each are a radius of 0.45 or more.
+    descent = quasi_static_descent(system, 90.0, 70.0, step=4.0, tolerance=1.0, disturbance=4.5)
+    # The fold, where both cycles end, is at eps = -1/4.
+    low, high = descent.bracket
+    assert low - 1.0 < 75.0 < high + 1.0
+    with pytest.raises(AnalysisError, match="hunt"):
+        quasi_static_descent(system, 90.0, 70.0, disturbance=2.2)
