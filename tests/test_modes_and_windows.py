@@ -1,12 +1,14 @@
 """Modes told by what moves, and critical speeds told from other instabilities, in linear systems
 whose eigenvalues and modes are prescribed: what is found must be what was put in."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import linearise
-from exudyn_wheelset.stability.linear.modes import hunting_share
+from exudyn_wheelset.stability.linear.modes import hunting_share, mode_name
 from exudyn_wheelset.systems.system import FunctionSystem
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
@@ -77,6 +79,24 @@ def test_a_mode_is_named_by_what_moves_in_it(moves, frequency, name):
     found = linearise(system, 10.0)
     row = np.argmin(np.abs(found.eigenvalues - (-0.1 + 2j * np.pi * frequency)))
     assert found.mode_names[row] == name
+
+
+@pytest.mark.parametrize(
+    ("moves", "frequency", "name"),
+    [
+        ("z", 120.0, "contact bounce"),
+        ("roll", 120.0, "contact roll"),
+        ("z", 30.0, "axle bounce"),
+        ("pitch", 120.0, "axle pitch"),
+        ("x", 120.0, "axle longitudinal"),
+    ],
+)
+def test_a_wheelset_bounces_on_its_contact_above_what_springs_can_do(moves, frequency, name):
+    directions = ("x", "y", "z", "yaw", "roll", "pitch")
+    states = [f"axle: {what} [{'m' if len(what) == 1 else 'rad'}]" for what in directions]
+    system = SimpleNamespace(state_names=states, wheelset_names=("axle",), trucks={})
+    mode = np.array([float(what == moves) for what in directions])
+    assert mode_name(system, mode, frequency) == name
 
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e3])

@@ -124,7 +124,12 @@ GROUPS = {
     "piecewise": Group(("geometry/piecewise.py",), ("test_piecewise_geometry_between_samples.py",)),
     "contact": Group(
         ("contact/search.py", "contact/patches.py", "contact/forces.py"),
-        ("test_contact_against_CONTACT.py", "test_contact_properties.py"),
+        (
+            "test_wrench_of_the_patches.py",
+            "test_patches_of_a_sliding_wheelset.py",
+            "test_contact_against_CONTACT.py",
+            "test_contact_properties.py",
+        ),
     ),
 }
 ARITHMETIC = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*"}
