@@ -56,6 +56,14 @@ def chord_length(points: FloatArray) -> FloatArray:
     return np.concatenate(([0.0], np.cumsum(steps)))
 
 
+def averaged(points: FloatArray, group: int) -> FloatArray:
+    """Means of `group` neighbouring points each, the last of what is left; columns as given."""
+    edges = np.arange(0, len(points), group)
+    counts = np.diff(np.append(edges, len(points)))
+    means: FloatArray = np.add.reduceat(points, edges, axis=0) / counts[:, None]
+    return means
+
+
 def distance_to_neighbours(points: FloatArray) -> FloatArray:
     """Distance of each point to the cubic through two neighbours on either side [m], shape (n,).
 

@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exudyn_wheelset.errors import ProfileError
+from exudyn_wheelset.profiles.curve import averaged
 from exudyn_wheelset.profiles.formats.raw import RawProfile, fault, listed
 from exudyn_wheelset.profiles.mending import (
     Stretch,
     advancing_stretch,
-    averaged,
     in_order,
     longest_advance,
     without_lost_ends,
@@ -162,7 +162,7 @@ def _in_one_direction(
     points = points[stretch.first : stretch.last + 1]
     lines = lines[stretch.first : stretch.last + 1]
     for group in (1, 2, 4, 8, 16):
-        thinned, their_lines = averaged(points, lines, group)
+        thinned, their_lines = averaged(points, group), lines[::group]
         steps = np.diff(thinned, axis=0)
         gentle = np.abs(steps[:, 1]) < _STEEP * np.abs(steps[:, 0])
         if np.sum(gentle & (steps[:, 0] <= 0.0)) <= _MOST_BACKSTEPS * len(thinned):

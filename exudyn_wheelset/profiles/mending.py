@@ -246,10 +246,3 @@ def longest_advance(y: FloatArray) -> IntArray:
         row.append(i)
         i = int(before[i])
     return np.array(row[::-1])
-
-
-def averaged(points: FloatArray, lines: IntArray, group: int) -> tuple[FloatArray, IntArray]:
-    """Means of `group` neighbouring points each, with the line of the first of them."""
-    edges = np.arange(0, len(points), group)
-    counts = np.diff(np.append(edges, len(points)))
-    return np.add.reduceat(points, edges, axis=0) / counts[:, None], lines[edges]

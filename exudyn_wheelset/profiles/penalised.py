@@ -41,6 +41,7 @@ from scipy.interpolate import BSpline
 from scipy.linalg import LinAlgError, cho_solve_banded, cholesky_banded
 from scipy.ndimage import gaussian_filter1d
 
+from exudyn_wheelset.profiles.curve import averaged
 from exudyn_wheelset.profiles.noise import tangents
 
 FloatArray = NDArray[np.float64]
@@ -48,6 +49,7 @@ FloatArray = NDArray[np.float64]
 _DEGREE = 5
 _ORDER = 3
 _MOST_KNOTS = 320
+_MOST_POINTS = 3000
 _KNOTS_PER_POINT = 1.0 / 1.5
 _GAMMA = 1.4
 _POWER = 3.0
@@ -88,16 +90,27 @@ class PenalisedFit:
 
 def fit_penalised(points: FloatArray) -> PenalisedFit:
     """The penalised curve near `points`, shape (n, 2), n >= 8, columns y and z [m], in order."""
+    every = points
+    group = -(-len(points) // _MOST_POINTS)
+    if group > 1:
+        # Steps shorter than the noise have no direction; means have, and lose nothing else.
+        points = averaged(points, group)
     system = _system(points)
     pilot = _adaptive(system, _PILOT_GAMMA)
     correlated = _correlated_points(points, system, pilot)
     coefficients = _adaptive(system, float(np.clip(correlated, _GAMMA, _MOST_GAMMA)))
     curve = BSpline(_SCALE * system.knots, _SCALE * coefficients, _DEGREE)
-    residual = curve(_SCALE * system.parameter) - points
+    centres = group * np.arange(len(points)) + 0.5 * (group - 1)
+    along = np.interp(np.arange(len(every)), centres, _SCALE * system.parameter)
+    tangent = curve.derivative()(along)
+    residual = every - curve(along)
+    normal = (residual[:, 1] * tangent[:, 0] - residual[:, 0] * tangent[:, 1]) / np.hypot(
+        *tangent.T
+    )
     spacing = _SCALE * float(np.median(np.diff(system.parameter)))
     return PenalisedFit(
         curve,
-        float(np.sqrt(np.mean(np.sum(residual**2, axis=1)))),
+        float(np.sqrt(np.mean(normal**2))),
         spacing * correlated if correlated > 1.0 else 0.0,
     )
 
