@@ -10,6 +10,7 @@ import pytest
 from exudyn.utilities import LoadForceVector, LoadTorqueVector
 
 from exudyn_wheelset import ExudynSystem, Track, Wheelset, create_wheelset, wheelsets_of
+from exudyn_wheelset.catalogue.paper_wheelset import paper_lateral_wheelset
 from exudyn_wheelset.coupling.derailment import DerailmentWatch
 from exudyn_wheelset.coupling.guidance import guidance
 from exudyn_wheelset.coupling.running import run_solver
@@ -217,3 +218,16 @@ def test_each_limit_ends_the_motion_where_the_drawings_say(change, ending):
         contact.place[index] = value
     outcome = DerailmentWatch([Placed(), contact]).look(0.002)
     assert (outcome and outcome.ending) is ending
+
+
+def test_the_lateral_model_ends_where_its_tread_does():
+    """The paper's cone has no flange: above its critical speed it runs off its rails, not away.
+
+    Knife edges stand under the tape circles, the tread ends 60 mm outside of them.
+    """
+    model = paper_lateral_wheelset("idealized", 1)
+    state = np.array([5e-3, 0.0, 0.0, 0.0])
+    with pytest.raises(SimulationError) as caught:
+        model.simulate(state, 60.0, np.linspace(0.0, 5.0, 2001))
+    assert caught.value.outcome.ending is Ending.LOST_GAUGE
+    assert 0.04 < np.abs(caught.value.states[:, 0]).max() < 0.06

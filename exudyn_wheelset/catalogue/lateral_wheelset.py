@@ -22,6 +22,7 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
 from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.coupling.guidance import guidance
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import WheelsetError
@@ -100,6 +101,8 @@ class LateralWheelset(DynamicSystem):
 
     state_names = ("y [m]", "yaw [rad]", "y' [m/s]", "yaw' [rad/s]")
     displacement_indices = (0, 1)
+    lateral_indices = (0,)
+    yaw_indices = (1,)
 
     def __init__(
         self,
@@ -145,6 +148,7 @@ class LateralWheelset(DynamicSystem):
             wheel=wheel_profile,
             tape_half_distance=tape_half_distance,
         )
+        self.lateral_limit = min(guidance(self.wheelset, self.track).shift)
         self.representation = representation
         self.half_range = half_range
         p = np.zeros(kernel.PARAMETER_COUNT)

@@ -15,6 +15,7 @@ _FACTS = (
     "displacement_indices",
     "lateral_indices",
     "yaw_indices",
+    "lateral_limit",
     "wheelset_names",
     "trucks",
     "stiff",

@@ -11,6 +11,7 @@ forward speed it is any bifurcation parameter.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -61,6 +62,7 @@ class DynamicSystem(ABC):
     displacement_indices  entries whose amplitude (half of peak to peak) is reported
     lateral_indices, yaw_indices  lateral displacement and yaw of each wheelset, in their order,
                           where the system knows its wheelsets
+    lateral_limit         [m] beyond which a wheelset has left its track (`simulate` ends there)
     stiff                 whether it has oscillations far faster than its motion: elastic contact
     wheelset_names        labels of the wheelsets in the state names ("leading" of "leading: y
                           [m]"); empty where every body with y and yaw may be one
@@ -73,6 +75,7 @@ class DynamicSystem(ABC):
     displacement_indices: tuple[int, ...]
     lateral_indices: tuple[int, ...] = ()
     yaw_indices: tuple[int, ...] = ()
+    lateral_limit: float = math.inf
     stiff: bool = False
     wheelset_names: tuple[str, ...] = ()
     trucks: Mapping[str, tuple[str, ...]] = MappingProxyType({})
@@ -145,18 +148,23 @@ class DynamicSystem(ABC):
         Raises SimulationError, which keeps the samples computed so far, if it ends early.
         """
         times = np.asarray(times, dtype=float)
+        lateral = list(self.lateral_indices)
 
         def in_range(_: float, x: Array) -> float:
             return RUNAWAY - float(np.max(np.abs(x) / self.scales))
 
-        in_range.terminal = True  # type: ignore[attr-defined]
+        def on_track(_: float, x: Array) -> float:
+            return self.lateral_limit - float(np.max(np.abs(x[lateral])))
+
+        in_range.terminal = on_track.terminal = True  # type: ignore[attr-defined]
+        watched = lateral and math.isfinite(self.lateral_limit)
         solution = solve_ivp(
             lambda _, x: self.derivative(x, speed),
             (times[0], times[-1]),
             np.asarray(state, dtype=float),
             method="LSODA",
             t_eval=times,
-            events=in_range,
+            events=[in_range, on_track] if watched else [in_range],
             rtol=1e-8,
             atol=1e-9 * np.asarray(self.scales),
         )
@@ -166,6 +174,11 @@ class DynamicSystem(ABC):
             outcome = Outcome(Ending.NO_CONVERGENCE, solution.message)
             if solution.status == 1:
                 outcome = Outcome(Ending.RAN_AWAY)
+                if len(solution.t_events) > 1 and len(solution.t_events[1]):
+                    limit = f"|y| = {1e3 * self.lateral_limit:.1f} mm"
+                    outcome = Outcome(
+                        Ending.LOST_GAUGE, f"{limit} at {solution.t_events[1][0]:.3f} s"
+                    )
             raise SimulationError(
                 f"{self.name}: the motion at {speed:g} m/s ended at sample {finite} of "
                 f"{len(times)}: {outcome}",
