@@ -69,6 +69,13 @@ class TestEstimate:
         found = with_noise(load_profile(name), deviation, spacing, seed=3).noise
         assert found == pytest.approx(deviation, rel=0.2)
 
+    @pytest.mark.parametrize("deviation", [5e-6, 2e-5])
+    def test_noise_in_height_alone(self, wheel, deviation):
+        """Where wheels run it is noise normal to the curve, less a cosine of 5 % on average."""
+        error = np.random.default_rng(7).normal(0.0, deviation, len(wheel.z))
+        found = Profile("noisy", "wheel", wheel.y, wheel.z + error).noise
+        assert found == pytest.approx(0.95 * deviation, rel=0.15)
+
     @pytest.mark.parametrize("name", ["S1002", "UIC60", "AAR_1_20", "cone_1_20"])
     def test_formulas_have_none(self, name):
         """The files' last digit is 1e-11 m; steps of curvature and of S1002's coefficients, 0.1
