@@ -1,0 +1,63 @@
+"""What the shipped bifurcation diagrams cost, in counts that no machine changes.
+
+The counts are a budget, not a truth: whoever moves one by more than 2 % has made a diagram dearer
+or cheaper, and says so in the changelog with the new number here. Rounding differs between
+processors and may cost a Newton step more or less, which is below 1 %.
+"""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import pytest
+
+from exudyn_wheelset import hopf_points
+from exudyn_wheelset.catalogue.cooperrider_bogie import cooperrider_system
+from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
+
+MODELS = Path(__file__).parents[1] / "models"
+BOGIE = {"right_hand_sides": 60_677, "jacobians": 8_480, "newton_steps": 273}
+S1002 = {"right_hand_sides": 214_470, "jacobians": 11_904, "newton_steps": 686}
+
+
+def load(name):
+    spec = importlib.util.spec_from_file_location(name, MODELS / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def cost_of(branch):
+    return {name: branch.record["cost"][name] for name in BOGIE}
+
+
+@pytest.fixture(scope="module")
+def bogie():
+    """Cost of models/cooperrider_bogie.py: Exudyn's bogie, and its equations written out."""
+    script = load("cooperrider_bogie")
+    systems = cooperrider_system(), cooperrider_reference_system()
+    return [cost_of(script.run(system)[2]) for system in systems]
+
+
+def test_the_bogie_stays_in_its_budget(bogie):
+    assert bogie[1] == pytest.approx(BOGIE, rel=0.02)
+
+
+def test_differences_cost_one_right_hand_side_a_state_and_jacobian(bogie):
+    """Exudyn's bogie has no Jacobians of its own: fourteen states, 160 points a Newton step."""
+    exudyn, written = bogie
+    assert exudyn["jacobians"] == pytest.approx(written["jacobians"], rel=0.02)
+    more_steps = exudyn["newton_steps"] - written["newton_steps"]
+    expected = written["right_hand_sides"] + 14 * exudyn["jacobians"] + 160 * more_steps
+    assert exudyn["right_hand_sides"] == pytest.approx(expected, rel=0.005)
+
+
+@pytest.mark.slow
+def test_the_s1002_wheelset_stays_in_its_budget():
+    """models/bifurcation.py with its defaults."""
+    script = load("bifurcation")
+    system = script.vehicle_system("s1002", None)
+    points = hopf_points(system, *script.entry("s1002").searched)
+    (hopf,) = [point for point in points if point.direction == "loses stability"][:1]
+    assert cost_of(script.follow(system, hopf, None)) == pytest.approx(S1002, rel=0.02)
