@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import difflib
 import math
+import warnings
 from collections.abc import Iterable, Sequence
 from numbers import Real
 from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+
+# A car body of 26 m has some 8 m.
+_WIDEST_GYRATION = 15.0
 
 
 def number(
@@ -76,6 +80,32 @@ def numbers(
         number(f"{what}[{place}]", value, unit, low, high, mend)
         for place, value in enumerate(given)
     )
+
+
+def moments_of_inertia(what: str, values: Any, mass: float) -> tuple[float, float, float]:
+    """Moments of inertia (Ix, Iy, Iz) [kg m^2] that a body of `mass` [kg] can have.
+
+    Raises WheelsetError for one that is not positive or is more than the sum of the other two;
+    warns of a radius of gyration that no part of a vehicle has, as where the mass is in tonnes.
+    """
+    x, y, z = numbers(f"{what} (Ix, Iy, Iz)", values, 3, "kg m^2")
+    for axis, value in zip("xyz", (x, y, z), strict=True):
+        positive(f"{what} I{axis}", value, "kg m^2", 1e9)
+        others = x + y + z - value
+        if value > others * (1.0 + 1e-9):
+            raise WheelsetError(
+                f"{what} I{axis} = {value:g} kg m^2 is more than the sum {others:g} kg m^2 of the "
+                "other two, which no body has: check the three numbers (Ix, Iy, Iz)"
+            )
+    gyration = math.sqrt(max(x, y, z) / mass)
+    if gyration > _WIDEST_GYRATION:
+        warnings.warn(
+            f"{what} = {max(x, y, z):g} kg m^2 of a mass of {mass:g} kg is a radius of gyration of "
+            f"{gyration:.3g} m (usual: up to {_WIDEST_GYRATION:g} m): are they in kg and kg m^2?",
+            WheelsetWarning,
+            stacklevel=4,
+        )
+    return x, y, z
 
 
 def unknown(kind: str, name: Any, known: Sequence[str]) -> WheelsetError:

@@ -126,6 +126,12 @@ def test_impossible_vehicles_are_refused_with_a_mend(change, words):
         connected(with_springs)
 
 
+def test_a_wheelset_of_impossible_inertia_is_refused():
+    """Ix and Iy exchanged: Iy 1120 above 112 + 112."""
+    with pytest.raises(WheelsetError, match=r"inertia Iy = 1120 kg m.*more than the sum 224"):
+        Wheelset(1813, (112, 1120, 112), 0.46, "S1002")
+
+
 def test_a_wheelset_off_the_track_is_refused():
     narrow = Wheelset(1813, (1120, 112, 1120), 0.46, "S1002", tape_half_distance=0.6)
     with pytest.raises(WheelsetError, match=r"not on its rail.*0.6 m.*check gauge"):
@@ -165,6 +171,8 @@ def test_impossible_elements_are_refused(make, words):
         (lambda: Spring(stiffness=(31.391, 3.884, 1.22)), "31.391e6"),
         (lambda: AntiRollBar(stiffness=940.0), "940e3"),
         (lambda: MaxwellDamper((0, 0, 1), stiffness=4e3, damping=1e6), "exchanged"),
+        (lambda: builder().body("body", 32.0, (56.8e3, 1.97e6, 1.97e6), (0, 0, 1.8)), "248 m.*kg"),
+        (lambda: Wheelset(1.8, (1120, 112, 1120), 0.46, "S1002"), "24.9 m.*kg"),
     ],
 )
 def test_other_units_and_exchanged_numbers_are_warned_of(make, words):

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from exudyn_wheelset.checking import number, numbers, positive, unknown
+from exudyn_wheelset.checking import moments_of_inertia, number, positive, unknown
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
@@ -68,10 +68,7 @@ class Wheelset:
     ) -> None:
         put = object.__setattr__
         put(self, "mass", positive("mass", mass, "kg", 1e5))
-        moments = numbers("inertia (Ix, Iy, Iz)", inertia, 3, "kg m^2")
-        for axis, value in zip("xyz", moments, strict=True):
-            positive(f"inertia I{axis}", value, "kg m^2", 1e6)
-        put(self, "inertia", moments)
+        put(self, "inertia", moments_of_inertia("inertia", inertia, self.mass))
         put(self, "radius", positive("radius", radius, "m", 2.0))
         put(self, "wheel", _profile_of_kind(wheel, "wheel"))
         half_distance = positive("tape_half_distance", tape_half_distance, "m", 2.0)

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from exudyn_wheelset.checking import number, numbers, positive, unknown
+from exudyn_wheelset.checking import moments_of_inertia, number, numbers, positive, unknown
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
@@ -55,17 +55,7 @@ class Body:
         check_name("body", self.name)
         put = object.__setattr__
         put(self, "mass", positive(f"body {self.name!r}: mass", self.mass, "kg", 1e6))
-        what = f"body {self.name!r}: inertia"
-        inertia = numbers(f"{what} (Ix, Iy, Iz)", self.inertia, 3, "kg m^2")
-        for axis, value in zip("xyz", inertia, strict=True):
-            positive(f"{what} I{axis}", value, "kg m^2", 1e9)
-        for axis, value in zip("xyz", inertia, strict=True):
-            others = sum(inertia) - value
-            if value > others * (1.0 + 1e-9):
-                raise WheelsetError(
-                    f"{what} I{axis} = {value:g} kg m^2 is more than the sum {others:g} kg m^2 of "
-                    "the other two, which no body has: check the three numbers (Ix, Iy, Iz)"
-                )
+        inertia = moments_of_inertia(f"body {self.name!r}: inertia", self.inertia, self.mass)
         put(self, "inertia", inertia)
         what = f"body {self.name!r}: centre (x, y, z)"
         put(self, "centre", numbers(what, self.centre, 3, "m", -100.0, 100.0, "metres are asked"))
