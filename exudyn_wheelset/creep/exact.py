@@ -233,10 +233,15 @@ def tractions(
     poisson: float,
     along: int,
     across: int,
-) -> tuple[NDArray, NDArray, NDArray, float]:
-    """Give (p_x, p_y, bound) over the patch, and its cells' area before scaling over pi a b.
+    tolerance: float,
+    p_x: NDArray,
+    p_y: NDArray,
+) -> float:
+    """Solve for the tractions p_x, p_y over the patch; give its cells' unscaled area over pi a b.
 
-    Arrays (across, along + 1) from the trailing edge and the right, column 0 left empty.
+    p_x, p_y: arrays (across, along + 1), from the trailing edge and the right, column 0 left empty;
+    zero, or the solution of a neighbouring state of the same patch to start from. Sweeps end when
+    the change of p in one is below tolerance times p, both as root mean square.
     Units: sqrt(a b) for length, so half_x half_y = 1; mu p_0 for tractions, before the scaling of
     the bound; mu p_0/G for creepage rigid_x, rigid_y and for the turn (spin times sqrt(a b)).
     """
@@ -262,12 +267,12 @@ def tractions(
     xx, xy, yy = influence(along, across, step_x, step_y, poisson)
     for table in (xx, xy, yy):
         table /= math.pi
-    p_x = np.zeros(shape)
-    p_y = np.zeros(shape)
-    q_x = np.zeros(shape)
-    q_y = np.zeros(shape)
+    q_x = p_x.copy()
+    q_y = p_y.copy()
+    q_x[:, :-1] -= p_x[:, 1:]
+    q_y[:, :-1] -= p_y[:, 1:]
     nothing = np.zeros(along + 1)
-    slides = np.zeros(shape, np.bool_)
+    slides = p_x * p_x + p_y * p_y > 0.999999 * bound * bound
     slip_x = np.empty(along + 1)
     slip_y = np.empty(along + 1)
     # a step too far in slender cells, dx above 5 dy, makes sweeps oscillate
@@ -322,9 +327,9 @@ def tractions(
                 keep,
             )
         size = np.sum(p_x * p_x) + np.sum(p_y * p_y)
-        if change <= TOLERANCE * TOLERANCE * size:
+        if change <= tolerance * tolerance * size:
             break
-    return p_x, p_y, bound, covered
+    return covered
 
 
 @compiled
@@ -363,11 +368,23 @@ def exact(
     scale = min(max(largest, SLOWEST), FASTEST) / largest
     along = int(parameters[0])
     across = int(parameters[1])
-    p_x, p_y, _, covered = tractions(
-        rigid_x * scale, rigid_y * scale, turn * scale, half_x, half_y, poisson, along, across
+    p_x = np.zeros((across, along + 1))
+    p_y = np.zeros((across, along + 1))
+    covered = tractions(
+        rigid_x * scale,
+        rigid_y * scale,
+        turn * scale,
+        half_x,
+        half_y,
+        poisson,
+        along,
+        across,
+        TOLERANCE,
+        p_x,
+        p_y,
     )
-    force_x = np.sum(p_x)
-    force_y = np.sum(p_y)
+    force_x = float(np.sum(p_x))
+    force_y = float(np.sum(p_y))
     moment = 0.0
     for j in range(across):
         for i in range(1, along + 1):

@@ -26,6 +26,8 @@ from exudyn_wheelset.creep.arguments import (
 )
 from exudyn_wheelset.creep.exact import LAW as EXACT
 from exudyn_wheelset.creep.exact import exact
+from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
+from exudyn_wheelset.creep.exact_table import exact_table
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.fastsim import fastsim
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
@@ -54,6 +56,7 @@ CREEP_LAWS: dict[str, CreepLaw] = {
         POLACH_2005,
         FASTSIM,
         EXACT,
+        EXACT_TABLE,
         POLACH_KALKER,
     )
 }
@@ -72,6 +75,7 @@ _POLACH = POLACH.number
 _POLACH_2005 = POLACH_2005.number
 _POLACH_KALKER = POLACH_KALKER.number
 _EXACT = EXACT.number
+_EXACT_TABLE = EXACT_TABLE.number
 
 
 @compiled
@@ -149,6 +153,19 @@ def creep_kernel(
         )
     if law_number == _POLACH_2005:
         return polach_2005(
+            creep_x,
+            creep_y,
+            spin,
+            a,
+            b,
+            normal_force,
+            friction,
+            shear_modulus,
+            poisson,
+            parameters,
+        )
+    if law_number == _EXACT_TABLE:
+        return exact_table(
             creep_x,
             creep_y,
             spin,
