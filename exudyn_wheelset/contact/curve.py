@@ -11,21 +11,10 @@ from exudyn_wheelset.compilation import compiled
 @compiled(inline="always")
 def curve_point(data, curve, arc):
     """Return (y, y', y'', z, z', z'') [m, -, 1/m] of the curve at arc length `arc` [m]."""
-    spacing = curve.spacing
-    last = curve.segments - 1
-    index = int(arc / spacing)
-    if index < 0:
-        index = 0
-    elif index > last:
-        index = last
-    u = arc - index * spacing
-    beyond = 0.0
-    if u < 0.0:
-        beyond = u
-        u = 0.0
-    elif u > spacing:
-        beyond = u - spacing
-        u = spacing
+    index = int(min(max(arc * curve.per_spacing, 0.0), curve.last))
+    from_start = arc - index * curve.spacing
+    u = min(max(from_start, 0.0), curve.spacing)
+    beyond = from_start - u
     base = curve.offset + 8 * index
     b2 = data[base + 2]
     b3 = data[base + 3]
@@ -35,6 +24,5 @@ def curve_point(data, curve, arc):
     z1 = data[base + 5] + u * (2.0 * c2 + 3.0 * u * c3)
     y = data[base] + u * (data[base + 1] + u * (b2 + u * b3)) + beyond * y1
     z = data[base + 4] + u * (data[base + 5] + u * (c2 + u * c3)) + beyond * z1
-    if beyond != 0.0:
-        return y, y1, 0.0, z, z1, 0.0
-    return y, y1, 2.0 * b2 + 6.0 * u * b3, z, z1, 2.0 * c2 + 6.0 * u * c3
+    bent = 2.0 if beyond == 0.0 else 0.0
+    return y, y1, bent * (b2 + 3.0 * u * b3), z, z1, bent * (c2 + 3.0 * u * c3)

@@ -14,7 +14,7 @@ The right side is computed as the left side of the mirrored wheelset and mirrore
 symmetry holds to rounding. Records and named tuples: layout.py.
 """
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
 from exudyn_wheelset.contact.layout import (
     PARAMETERS,
@@ -76,7 +76,7 @@ def _patch_creep(k, patches, shares, count, parameters):
     return fx, fy, mz
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     """Fill `result` with the wrench on the wheelset and its patches; return nothing.
 

@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 from scipy.special import elliprd, elliprf
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 
 LOG_RATIO_END = 40.0
 INTERVALS = 640
@@ -67,7 +67,7 @@ def _shape_table() -> NDArray:
 _SHAPE = _shape_table()
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _ellipse_shape(A: float, B: float) -> tuple[float, float, float]:
     """Give axis(t), axis(-t), depth(t) for t = ln(B/A)."""
     t = math.log(B / A)
@@ -85,7 +85,7 @@ def _ellipse_shape(A: float, B: float) -> tuple[float, float, float]:
     return log_a, log_b, log_depth
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def hertz_from_load(
     A: float, B: float, normal_force: float, shear_modulus: float, poisson: float
 ) -> tuple[float, float, float, float]:
@@ -106,7 +106,7 @@ def hertz_from_load(
     return a, b, approach, 1.5 * normal_force / (math.pi * a * b)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def hertz_from_approach(
     A: float, B: float, approach: float, shear_modulus: float, poisson: float
 ) -> tuple[float, float, float]:

@@ -77,8 +77,12 @@ def _numbers(*names: str) -> np.dtype:
     return _record(*((name, "f8") for name in names))
 
 
-# Offsets are places in the table; a block is `count` columns of rows, one row after the other.
-CURVE = _record(("offset", "i8"), ("segments", "i8"), ("spacing", "f8"))
+# Offsets are places in the table. A curve has so many segments of a length `spacing` [m],
+# per_spacing is its inverse, last the number of the last one. A block is `count` columns of rows,
+# one row after the other.
+CURVE = _record(
+    ("offset", "i8"), ("segments", "i8"), ("spacing", "f8"), ("per_spacing", "f8"), ("last", "f8")
+)
 BLOCK = _record(("offset", "i8"), ("count", "i8"))
 NODE_ARC, NODE_LATERAL, NODE_RADIUS, NODE_SLOPE, NODE_FLATNESS = range(5)
 GRID_HEIGHT, GRID_ARC = range(2)

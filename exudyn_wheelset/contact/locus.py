@@ -17,7 +17,7 @@ Records and the named tuple `axle`: layout.py.
 
 import math
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 
 
@@ -67,7 +67,7 @@ def wheel_section(table, side, arc, axle):
     )
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def wheel_point(table, side, arc, axle):
     """Contact-locus point with all about it: (x, y, z, ny, nz, radius, wheel_y, curvature).
 

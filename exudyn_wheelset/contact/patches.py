@@ -23,7 +23,7 @@ Frame: track frame, left side. Records LOBE, SHARE, PATCH and the named tuples: 
 
 import math
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
@@ -51,7 +51,7 @@ def _mean_half_curvature(total, depth):
     return (16.0 / 9.0) * extent * extent * extent / (total * total)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _hertz_ellipse(along, lateral, depth, material):
     """Ellipse by Hertz of half curvatures along and lateral [1/m] and the approach [m]."""
     force, a, b = hertz_from_approach(
@@ -60,7 +60,7 @@ def _hertz_ellipse(along, lateral, depth, material):
     return Ellipse(force, a, b)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _virtual_ellipse(first, second, lateral, depth, along, material):
     """Force by virtual penetration and Hertz's ellipse under that force."""
     force = virtual_penetration_force(first, second, depth, material)
@@ -68,7 +68,7 @@ def _virtual_ellipse(first, second, lateral, depth, along, material):
     return Ellipse(force, a, b)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _integrals(table, side, lobe, deepest, origin, along, axle):
     """Integrals of virtual penetration over the lobe's zone above (1 - VIRTUAL) deepest."""
     level = (1.0 - VIRTUAL) * deepest
@@ -77,7 +77,7 @@ def _integrals(table, side, lobe, deepest, origin, along, axle):
     return zone_integrals(table, side, lobe, level, origin, along, axle)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _merged_integrals(table, side, lobe, other, deepest, origin, along, axle):
     """Integrals over the zones of two merging lobes, with the displacement at `origin`."""
     first, second = _integrals(table, side, lobe, deepest, origin, along, axle)
@@ -91,7 +91,7 @@ def _unit(y, z):
     return y / length, z / length
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _zone_moments(table, side, lobe, deepest, axle):
     """Moments of the lobe's zone above (1 - VIRTUAL) deepest; zeros if it does not reach there."""
     level = (1.0 - VIRTUAL) * deepest
@@ -109,7 +109,7 @@ def _keep(record, zone):
     record.normal_z = zone.normal_z
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _part_of_merged(table, side, lobe, deepest, axle):
     """Record of the lobe's moments as a part of a merged patch as deep as `deepest`."""
     if lobe.penetration == deepest:
@@ -120,7 +120,7 @@ def _part_of_merged(table, side, lobe, deepest, axle):
     return lobe.merged
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _fill_own_zones(table, side, lobes, count, axle):
     """Fill `own` of each lobe.
 
@@ -159,7 +159,7 @@ def _set_ellipse(record, ellipse):
     record.b = ellipse.b
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _own_ellipse(table, side, lobe, normal, material, axle):
     """Ellipse of a lobe alone by the model of that number; its zone has been filled."""
     zone = lobe.own
@@ -176,7 +176,7 @@ def _own_ellipse(table, side, lobe, normal, material, axle):
     return _hertz_ellipse(along, lateral, depth, material)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _sink_in_each_other(lobes, shares, count, material):
     """Take the lobes' own ellipses back to what is left of their penetrations.
 
@@ -221,7 +221,7 @@ def _field(lobes, shares, k, j):
     return force / abs(distance)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def side_patches(table, hand, axle, parameters, work, patches):
     """Normal contact of one side: fills patches with geometry and elastic force; their count."""
     side = side_of(table, hand)

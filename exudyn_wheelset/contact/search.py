@@ -23,7 +23,9 @@ Frame: track frame, left side; lengths in metres. Records LOBE, CANDIDATE, WORK 
 
 import math
 
-from exudyn_wheelset.compilation import compiled
+import numpy as np
+
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.layout import (
     GRID_ARC,
     GRID_HEIGHT,
@@ -42,13 +44,9 @@ VIRTUAL = 0.55
 SCAN_MARGIN = 1.5e-4
 MERGED_PROMINENCE = 0.1
 
-GAUSS = (
-    (0.046910077030668018, 0.11846344252809464),
-    (0.23076534494715845, 0.23931433524968315),
-    (0.5, 0.28444444444444433),
-    (0.7692346550528415, 0.23931433524968315),
-    (0.95308992296933193, 0.11846344252809464),
-)
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(5)
+GAUSS_PLACES = 0.5 * (1.0 + _POINTS)
+GAUSS_WEIGHTS = 0.5 * _WEIGHTS
 
 
 @compiled(inline="always")
@@ -63,10 +61,9 @@ def probe(table, side, arc, foot, axle):
     return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
 
 
-@compiled
-def grid_foot(table, side, arc, axle):
-    """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
-    py, _, _, _, _ = wheel_section(table, side, arc, axle)
+@compiled(inline="always")
+def _foot_below(table, side, py):
+    """Arc length of the rail point below a lateral position, from the grid."""
     py = min(max(py, side.rail_low), side.rail_high)
     place = (py - side.grid_start) / side.grid_step
     cell = int(place)
@@ -75,19 +72,30 @@ def grid_foot(table, side, arc, axle):
 
 
 @compiled
+def grid_foot(table, side, arc, axle):
+    """Arc length of the rail point below the wheel's, from the grid: the guess for `rail_foot`."""
+    return _foot_below(table, side, wheel_section(table, side, arc, axle)[0])
+
+
+@compiled(fastmath=AS_REAL_NUMBERS)
 def level_tangent(table, side, low, high, start, sign, axle):
     """Wheel arc length in [low, high] where the tangents agree: a lobe (sign 1) or valley (-1).
 
     start: first guess. Returns (arc, foot, penetration, 2 B).
     """
     arc = start
-    foot = grid_foot(table, side, arc, axle)
+    foot = 0.0
     penetration = 0.0
     bend = 1.0
-    for _ in range(40):
-        penetration, sine, bend, new_foot = probe(table, side, arc, foot, axle)
-        slope = sign * sine
-        if slope > 0.0:
+    for turn in range(40):
+        py, pz, ny, nz, wheel_curvature = wheel_section(table, side, arc, axle)
+        if turn == 0:
+            foot = _foot_below(table, side, py)
+        foot, ty, tz, rail_curvature, height = rail_foot(table, side, py, pz, foot)
+        penetration = -height
+        sine = ty * ny + tz * nz
+        bend = wheel_curvature - rail_curvature
+        if sign * sine > 0.0:
             high = arc
         else:
             low = arc
@@ -95,12 +103,12 @@ def level_tangent(table, side, low, high, start, sign, axle):
         trial = arc + step
         if trial <= low or trial >= high:
             trial = 0.5 * (low + high)
-        foot = new_foot + (trial - arc)
-        change = abs(trial - arc)
+        change = trial - arc
+        foot += change
         # Penetration is stationary here: a Taylor step over the last change is exact to 1e-13 m.
-        penetration -= sine * (trial - arc) + 0.5 * bend * (trial - arc) ** 2
+        penetration -= change * (sine + 0.5 * bend * change)
         arc = trial
-        if change < 1.0e-7 or high - low < 1.0e-10:
+        if abs(change) < 1.0e-7 or high - low < 1.0e-10:
             break
     return arc, foot, penetration, bend
 
@@ -163,7 +171,7 @@ def _range_over_rail(table, side, axle):
     return first, final
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def find_lobes(table, side, axle, work):
     """Fill `work.lobes` for one side; return their number.
 
@@ -237,7 +245,7 @@ def _vertex(left, middle, right, candidate):
     return min(max(middle + shift, left), right)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _refine_lobes(table, side, axle, work, found, first_node, final_node):
     """Turn the candidates into lobes that reach into the rail; return their number."""
     arcs = block_row(table, side.nodes, NODE_ARC)
@@ -281,7 +289,7 @@ def _refine_lobes(table, side, axle, work, found, first_node, final_node):
     return kept
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def zone_end(table, side, lobe, limit, level, axle):
     """Wheel arc between the lobe's maximum and `limit` where the penetration falls to `level`."""
     arc, foot = lobe.arc, lobe.foot
@@ -318,26 +326,70 @@ def zone_end(table, side, lobe, limit, level, axle):
     return arc + direction * distance
 
 
-@compiled
+@compiled(inline="always")
+def _root_step(table, side, lobe, offset, root, axle):
+    """Newton's step towards the place where the lobe has fallen by root^2, from arc + offset.
+
+    On the square root of the fall, which is a straight line where the lobe is a parabola.
+    Returns (new offset, misfit of the root over it).
+    """
+    depth, sine, _, _ = probe(table, side, lobe.arc + offset, lobe.foot + offset, axle)
+    fallen = math.sqrt(max(lobe.penetration - depth, 1.0e-4 * root * root))
+    misfit = root - fallen
+    return offset + 2.0 * fallen * misfit / sine, abs(misfit) / root
+
+
+@compiled(fastmath=AS_REAL_NUMBERS)
+def zone_ends(table, side, lobe, level, axle):
+    """Wheel arcs on either side of the lobe where the penetration falls to `level`.
+
+    Two steps from the parabola at the lobe, both sides at once; where that is not enough, or leads
+    beyond the lobe's territory, the safe search of `zone_end`.
+    """
+    excess = lobe.penetration - level
+    root = math.sqrt(excess)
+    start = root * math.sqrt(2.0 / max(lobe.curvature, 0.5))
+    least, most = lobe.left - lobe.arc, lobe.right - lobe.arc
+    left, right = -start, start
+    one = other = 1.0
+    if -start > least and start < most:
+        left, _ = _root_step(table, side, lobe, left, root, axle)
+        right, _ = _root_step(table, side, lobe, right, root, axle)
+        if least < left < 0.0 < right < most:
+            left, one = _root_step(table, side, lobe, left, root, axle)
+            right, other = _root_step(table, side, lobe, right, root, axle)
+    # The error left is of second order in the last misfit, and of fourth in the integrals.
+    if one < 1.5e-3 and least < left < 0.0:
+        left += lobe.arc
+    else:
+        left = zone_end(table, side, lobe, lobe.left, level, axle)
+    if other < 1.5e-3 and 0.0 < right < most:
+        right += lobe.arc
+    else:
+        right = zone_end(table, side, lobe, lobe.right, level, axle)
+    return left, right
+
+
+@compiled(fastmath=AS_REAL_NUMBERS)
 def zone_moments(table, side, lobe, level, axle):
     """Zone of the lobe where penetration exceeds `level`: its moments."""
     arc, foot = lobe.arc, lobe.foot
+    left, right = zone_ends(table, side, lobe, level, axle)
     total = 0.0
     total_arc = 0.0
     total_foot = 0.0
     total_ny = 0.0
     total_nz = 0.0
-    for half in range(2):
-        end = zone_end(table, side, lobe, lobe.left if half == 0 else lobe.right, level, axle)
-        length = abs(end - arc)
-        for k in range(5):
-            place = arc + (end - arc) * GAUSS[k][0]
-            py, pz, ny, nz, _ = wheel_section(table, side, place, axle)
-            at, ty, tz, _, height = rail_foot(table, side, py, pz, foot + place - arc)
-            weight = GAUSS[k][1] * length * max(-height - level, 0.0)
-            total += weight
-            total_arc += weight * place
-            total_foot += weight * at
-            total_ny += weight * 0.5 * (-tz - ny)
-            total_nz += weight * 0.5 * (ty - nz)
+    for k in range(2 * len(GAUSS_PLACES)):
+        point = k >> 1
+        length = right - arc if k & 1 else left - arc
+        offset = length * GAUSS_PLACES[point]
+        py, pz, ny, nz, _ = wheel_section(table, side, arc + offset, axle)
+        at, ty, tz, _, height = rail_foot(table, side, py, pz, foot + offset)
+        weight = GAUSS_WEIGHTS[point] * abs(length) * max(-height - level, 0.0)
+        total += weight
+        total_arc += weight * (arc + offset)
+        total_foot += weight * at
+        total_ny += weight * 0.5 * (-tz - ny)
+        total_nz += weight * 0.5 * (ty - nz)
     return Zone(total, total_arc, total_foot, total_ny, total_nz)

@@ -16,13 +16,13 @@ Frame: track frame, left side.
 
 import math
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at
 from exudyn_wheelset.contact.layout import Traction
 from exudyn_wheelset.creep.fastsim import flexibilities, slip_step
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def march(rise_x, rise_y, turn_y, cells):
     """Sums over the cells of a strip of p_x, p_y and x p_y, in units of its bound and half length.
 
@@ -56,7 +56,7 @@ def march(rise_x, rise_y, turn_y, cells):
     return total_x, total_y, lever
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _patch_flexibilities(share, patch, parameters):
     """Flexibilities of the patch's ellipse, blended with the merged one's while lobes merge."""
     limit = parameters.friction * share.damping
@@ -76,7 +76,7 @@ def _patch_flexibilities(share, patch, parameters):
     return soft_x, soft_y, soft_spin
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def strip_traction(strips, share, patch, slip, parameters):
     """Creep force of a patch over its strips, about its position, in its triad (Traction)."""
     x = y = z = moment_x = moment_y = moment_z = 0.0

@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.layout import STRIPS_A_LOBE, Ellipse, Material
 from exudyn_wheelset.contact.locus import wheel_point
@@ -27,7 +27,7 @@ from exudyn_wheelset.contact.strips import solve_strips
 LOAD, ARC, ARC_SQUARE, FOOT, LENGTH_SQUARE, PEAK, ENERGY = range(7)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _load_moments(strips, sums):
     """Fill sums: load [N], its moments of arc, arc^2, foot, a^2, peak pressure [Pa], energy [J]."""
     sums[:] = 0.0
@@ -45,7 +45,7 @@ def _load_moments(strips, sums):
         sums[ENERGY] += 0.5 * load * (strip.depth - 0.25 * strip.curvature * a * a)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _ellipse_of(sums):
     """Ellipse with the load and its second moments."""
     load = sums[LOAD]
@@ -54,7 +54,7 @@ def _ellipse_of(sums):
     return Ellipse(load, math.sqrt(1.25 * sums[LENGTH_SQUARE] / load), math.sqrt(5.0 * variance))
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _fill_patch(table, side, strips, sums, axle, patch):
     """Resultant of the strips, its place and normal."""
     force_y = force_z = moment_x = moment_lead = mean_y = mean_z = 0.0
@@ -89,7 +89,7 @@ def _fill_patch(table, side, strips, sums, axle, patch):
     patch.energy = sums[ENERGY]
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def strip_patches(table, side, axle, parameters, work, patches):
     """Normal contact of one side by strips: fills patches, shares and strips; their count."""
     lobes = work.lobes

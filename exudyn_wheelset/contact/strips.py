@@ -36,7 +36,7 @@ import math
 
 import numpy as np
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.hertz import hertz_from_approach
 from exudyn_wheelset.contact.layout import STRIPS_A_LOBE
 from exudyn_wheelset.contact.locus import rail_foot, wheel_point
@@ -65,7 +65,7 @@ HERTZ_OVER_STRIPS = np.array(
 # fmt: on
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def k_minus_e(u_squared):
     """D = K - E for parameter m = 1/(1 + u^2): to 5e-8.
 
@@ -91,7 +91,7 @@ def _integral_of_log(x):
     return x * math.log(abs(x)) - x if x != 0.0 else 0.0
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def influence(distance, width, half_length):
     """Integrals over a strip's width of 2 r D and of D/(r a^2), seen from `distance` [m].
 
@@ -125,7 +125,7 @@ def influence(distance, width, half_length):
     return depth - 2.0 * logarithm, (bend - logarithm) * per_length * per_length
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _solve_active(matrix, wanted, active, pressure, work):
     """Pressures of the active strips for the wanted depths: elimination without pivoting.
 
@@ -158,7 +158,7 @@ def _solve_active(matrix, wanted, active, pressure, work):
         pressure[places[i]] = right[i]
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _contact(matrix, wanted, active, pressure, work):
     """Pressures >= 0 whose displacement is the depth where they act, and not less elsewhere."""
     count = len(wanted)
@@ -184,7 +184,7 @@ def _contact(matrix, wanted, active, pressure, work):
             break
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _lay_strips(table, side, lobe, strips, axle):
     """Fill the strips of a lobe: from where it enters the rail to where it leaves it."""
     left = zone_end(table, side, lobe, lobe.left, 0.0, axle)
@@ -212,7 +212,7 @@ def _lay_strips(table, side, lobe, strips, axle):
         strip.curvature = 0.5 * strip.normal_z / radius
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def _lobe_curvatures(table, side, lobe, strips, axle):
     """Half curvatures of a lobe: along x at its deepest point, lateral averaged over it."""
     extent = VIRTUAL * lobe.penetration
@@ -222,7 +222,7 @@ def _lobe_curvatures(table, side, lobe, strips, axle):
     return along, 16.0 / 9.0 * extent * extent * extent / (zone.total * zone.total)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def begin_with_ellipse(strips, depth, along, lateral, material):
     """Give strips of a lobe the half lengths of Hertz's ellipse; return how local bending is.
 
@@ -240,7 +240,7 @@ def begin_with_ellipse(strips, depth, along, lateral, material):
     return 1.0 / (1.0 + (a / (_SLENDER * b)) ** 2)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def hertz_over_strips(along, lateral):
     """Force of Hertz's ellipse over that of its strips, for half curvatures A and B."""
     place = (math.log(lateral / along) - FACTOR_START) / FACTOR_STEP
@@ -250,7 +250,7 @@ def hertz_over_strips(along, lateral):
     return low + (place - cell) * (HERTZ_OVER_STRIPS[cell + 1] - low)
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def press_strips(strips, locality, material):
     """Find pressure and half length of the strips of a side, all at once.
 
@@ -301,7 +301,7 @@ def press_strips(strips, locality, material):
         strips[i].pressure = pressure[i]
 
 
-@compiled
+@compiled(fastmath=AS_REAL_NUMBERS)
 def solve_strips(table, side, lobes, count, strips, material, axle):
     """Fill the strips of the lobes of a side: place, half length [m], pressure [Pa]."""
     locality = np.empty(count)

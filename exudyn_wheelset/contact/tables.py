@@ -86,7 +86,8 @@ def _side_blocks(
         ("wheel", wheel_curve, wheel_table.ds),
         ("rail", rail_curve, rail.spacing),
     ):
-        side[curve]["segments"], side[curve]["spacing"] = len(rows), spacing
+        side[curve]["segments"], side[curve]["last"] = len(rows), len(rows) - 1
+        side[curve]["spacing"], side[curve]["per_spacing"] = spacing, 1.0 / spacing
     blocks = [("nodes", nodes), ("grid", grid), ("fine_nodes", fine)]
     for name, block in blocks:
         side[name]["count"] = block.shape[1]
