@@ -59,8 +59,11 @@ def test_any_number_of_the_tree_can_be_replaced():
     assert vehicle.replace("contact.friction", 0.1).contact.friction == 0.1
     assert vehicle.replace("contact", Contact(creep="linear")).contact.creep == "linear"
     assert vehicle.replace("track.gauge", 1.433).track.gauge == 1.433
-    radii = vehicle.replace("wheelsets.*.radius", 0.45).wheelsets
-    assert [axle.wheelset.radius for axle in radii] == [0.45, 0.45]
+    smaller = vehicle.replace("wheelsets.*.radius", 0.45)
+    assert [axle.wheelset.radius for axle in smaller.wheelsets] == [0.45, 0.45]
+    assert all(one.at[2] == pytest.approx(0.45) for one in smaller.connections)
+    ahead = vehicle.replace("wheelsets.leading.x", 4.1).connections
+    assert [one.at[0] for one in ahead] == pytest.approx([4.1] * 4 + [-4.0] * 4)
     changed = vehicle.replace("connections.leading left spring.stiffness.y", 1e6)
     assert changed.connections[0].element.stiffness == (31.391e6, 1e6, 1.22e6)
     assert changed.connections[2:] == vehicle.connections[2:]

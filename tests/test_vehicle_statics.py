@@ -74,6 +74,38 @@ def test_a_vehicle_drawn_without_load_sinks_onto_its_springs():
         assert loads == pytest.approx([(20e3 + 2 * 1813) * GRAVITY / 4] * 2, rel=1e-9)
 
 
+def test_what_has_settled_stands_with_relaxed_dampers():
+    """Strokes of dampers in series start where they do not pull, on springs that have sunk."""
+    damper = MaxwellDamper((0.0, 0.3, 1.0), 2e6, 2e4)
+    table = Damper((0, 0, 1), table=((0, 0), (0.1, 2e3), (0.4, 4e3)), series_stiffness=3e6)
+    vehicle = wagon(elements=(PRIMARY, damper, table), preload="free")
+    system = vehicle_system(vehicle)
+    state = system.initial_state(25.0)
+    strokes = [k for k, name in enumerate(system.state_names) if name.endswith("stroke [m]")]
+    assert len(strokes) == 8
+    # Along z by the sunk springs, along the inclined one by its share of that.
+    sunk = 20e3 * GRAVITY / (4 * 1.22e6)
+    assert np.sort(state[strokes]) == pytest.approx([-sunk] * 4 + [-sunk / np.hypot(0.3, 1)] * 4)
+    assert np.abs(system.derivative(state, 25.0)).max() < 1e-6
+
+
+def test_a_given_preload_counts_once_for_an_element_of_several_laws():
+    """An air spring of two laws that carries 40 kN of a car that is left out."""
+    made = VehicleBuilder("truck", Track("UIC60"))
+    frame = made.body("frame", mass=3e3, inertia=(2e3, 2e3, 3e3), centre=(0, 0, 0.6))
+    for name, x in (("leading", 1.2), ("trailing", -1.2)):
+        axle = made.wheelset(name, AXLE, x=x)
+        for y in (1.0, -1.0):
+            made.connect(PRIMARY, axle, frame, at=(x, y, axle.z))
+    for y in (1.0, -1.0):
+        air = AirSpring((1e5, 1e5, 3e5), 5e5, 1e4)
+        made.connect(air, frame, made.ground, at=(0, y, 0.9), preload=(0, 0, 40e3))
+    found = static_equilibrium(made.finish())
+    even = (2 * 40e3 + (3e3 + 2 * AXLE.mass) * GRAVITY) / 4
+    assert found.wheel_loads["leading"] == pytest.approx((even, even), rel=1e-9)
+    assert found.residual < 1e-6
+
+
 def test_loads_that_balance_leaves_open_are_shared_by_stiffness():
     """A third axle in the middle of a stiff body, on half the stiffness, carries half the share."""
     made = VehicleBuilder("wagon", Track("UIC60"))
