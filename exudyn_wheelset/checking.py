@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import math
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from numbers import Real
 from typing import Any
 
@@ -123,3 +124,14 @@ def _range(low: float, high: float) -> str:
     if math.isinf(high):
         return f"of at least {low:g}"
     return f"from {low:g} to {high:g}" if not math.isinf(low) else f"of at most {high:g}"
+
+
+def refuse_options(function: Callable[..., Any], given: Iterable[str]) -> None:
+    """Raise WheelsetError for the first of the options that `function` does not have."""
+    known = [
+        name
+        for name, parameter in inspect.signature(function).parameters.items()
+        if parameter.kind is not inspect.Parameter.VAR_KEYWORD and name != "self"
+    ]
+    for name in given:
+        raise unknown("option", name, known)

@@ -96,6 +96,7 @@ def test_swapped_arguments_are_named(mbs):
         ),
         ({"displacement_indices": [11]}, r"displacement_indices holds 11: give 0 to 10"),
         ({"spinning_nodes": [7]}, r"spinning_nodes names 7, the model has 0"),
+        ({"spining_nodes": [0]}, r"unknown option 'spining_nodes'.*did you mean 'spinning_nodes'"),
         ({"cyclic": [4]}, r"part of the rotation vector of node 0.*spinning_nodes instead"),
     ],
 )

@@ -236,6 +236,7 @@ def test_no_folder_is_left_behind(tmp_path, monkeypatch, truck):
         ({"start": 0.03}, r"shift of truck leading wheelset = 0.03 m: give .* in metres"),
         ({"start": np.zeros(3)}, r"shape \(3,\).*give 34 numbers"),
         ({"start": {"front: y": 1e-3}}, "'front: y' is not one of"),
+        ({"intervall": 1e-3}, "unknown option 'intervall'.*did you mean 'interval'"),
         ({"step": 1e-4}, "a system has a solver and a step of its own"),
     ],
 )

@@ -18,6 +18,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.checking import refuse_options
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import QuietExudyn, copied_settings, failure_words
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
@@ -92,7 +93,9 @@ class ExudynSystem(DynamicSystem):
         step: float | None = None,
         settings: exu.SimulationSettings | None = None,
         parameters: Mapping[str, Any] | None = None,
+        **others: Any,
     ) -> None:
+        refuse_options(ExudynSystem.__init__, others)
         check_arguments(mbs, SC, name, settings)
         self.name = name
         # Exudyn's stub files miss `self` and accept lists only where arrays are taken too.

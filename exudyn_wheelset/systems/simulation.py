@@ -17,7 +17,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exudyn_wheelset.checking import number, positive
+from exudyn_wheelset.checking import number, positive, refuse_options
 from exudyn_wheelset.coupling.registration import WheelsetItems, wheelsets_of
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES
 from exudyn_wheelset.errors import AnalysisError
@@ -49,6 +49,7 @@ def simulate(
     step: float | None = None,
     progress: bool = False,
     description: str | None = None,
+    **others: Any,
 ) -> Motion:
     """Motion of a vehicle at `speed` [m/s] over `duration` [s], sampled every `interval` [s].
 
@@ -63,6 +64,7 @@ def simulate(
     Bodies keep what they do in the model: `mbs` may have joints, memory and wheelsets that run over
     the ground, whose speed is that of their creation. Raises WheelsetError for impossible values.
     """
+    refuse_options(simulate, others)
     speed = number("speed", speed, "m/s", -200.0, 200.0)
     duration = positive("duration", duration, "s", 1e5)
     interval = positive("interval", interval, "s", duration)
