@@ -7,8 +7,9 @@
 Each mutant is one change of one place of one module: a sign, an arithmetic operator, a constant, a
 comparison turned around, `and` for `or`, sin for cos, min for max. It is written into a copy of the
 repository and the tests of its group run on it; a mutant that no test notices has survived. Places
-are drawn by a seed. Results are kept after each mutant (--results), so that a run can be broken off
-and taken up again; a mutant is known by its module, line and change.
+are drawn by a seed. Results are kept after each mutant (--results; by default docs/mutation.json,
+from which the tables of docs/mutation.md are made), so that a run can be broken off and taken up
+again; a mutant is known by its module, line and change.
 
 Left alone: docstrings, annotations, imports, messages of errors, ranges in which a parameter is
 accepted, and constants up to 1e-3 in size, which are tolerances and steps of differences: a
@@ -22,6 +23,7 @@ import ast
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import sys
@@ -45,6 +47,7 @@ matplotlib.use("Agg")
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = "exudyn_wheelset"
+PAGE = REPOSITORY / "docs" / "mutation.md"
 
 
 @dataclass(frozen=True)
@@ -385,7 +388,7 @@ def main() -> None:
     parser.add_argument("groups", nargs="*", help=f"of {', '.join(GROUPS)}; default: all")
     parser.add_argument("--count", type=int, default=20, help="mutants drawn of each group")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--results", type=Path, default=Path("runs/out/mutation.json"))
+    parser.add_argument("--results", type=Path, default=PAGE.with_suffix(".json"))
     parser.add_argument("--again", action="store_true", help="run the survivors once more")
     parser.add_argument("--table", action="store_true", help="print the results so far only")
     arguments = parser.parse_args()
@@ -398,6 +401,13 @@ def main() -> None:
         for name in arguments.groups or GROUPS:
             run_group(name, arguments.count, arguments.seed, results, file)
     print(table(results))
+    if file.resolve() == PAGE.with_suffix(".json"):
+        text = PAGE.read_text(encoding="utf-8")
+        block = f"<!-- results -->\n{table(results)}\n<!-- end of results -->"
+        text = re.sub(
+            "<!-- results -->.*<!-- end of results -->", lambda _: block, text, flags=re.S
+        )
+        PAGE.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
