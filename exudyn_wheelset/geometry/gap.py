@@ -29,8 +29,10 @@ from exudyn_wheelset.contact.search import grid_foot
 # millimetre apart, see a minimum too high by at most 0.02 mm across, 0.1 mm along a steep flange.
 _SCAN_WINDOW = 2.0e-4
 # Where wheel and rail are of one radius (13 mm in 13 mm at the throat) they part by nanometres over
-# a millimetre, and several minima lie between two nodes: each of this many cells is looked at.
+# a millimetre, and several minima lie between two nodes: each of this many cells is looked at, a
+# cell with a minimum in parts shorter than the pieces of the profiles (0.1 mm).
 _CELLS = 4
+_PARTS = 4
 # The scan takes the rail as straight between the grid's points: twice the sag of an arc, of the sum
 # of the second differences at both ends.
 _SAG = 0.125
@@ -75,6 +77,27 @@ def _minimum(table, side, low, high, axle):
             break
     gap, _, _, at = _vertical_gap(table, side, arc, axle, _EXACT_STEPS)
     return arc, gap, at
+
+
+@compiled
+def _least_minimum(table, side, low, high, axle):
+    """Least of the local minima in [low, high], where the gap falls at first and rises at last."""
+    least = np.inf
+    least_arc = least_at = np.nan
+    width = (high - low) / _PARTS
+    falls = True
+    for part in range(_PARTS):
+        end = low + width
+        rises = part == _PARTS - 1 or (
+            _vertical_gap(table, side, end, axle, _STEPS_FOR_SIGN)[1] > 0.0
+        )
+        if falls and rises:
+            arc, gap, at = _minimum(table, side, low, end, axle)
+            if gap < least:
+                least, least_arc, least_at = gap, arc, at
+        falls = not rises
+        low = end
+    return least_arc, least, least_at
 
 
 @compiled
@@ -140,7 +163,7 @@ def least_gap(table, hand, cy, lx, ly, lz):
                 _vertical_gap(table, side, high, axle, _STEPS_FOR_SIGN)[1] > 0.0
             )
             if falls and rises:
-                arc, gap, at = _minimum(table, side, low, high, axle)
+                arc, gap, at = _least_minimum(table, side, low, high, axle)
                 if gap < best:
                     second, second_arc, second_at = best, best_arc, best_at
                     best, best_arc, best_at = gap, arc, at

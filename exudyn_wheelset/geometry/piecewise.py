@@ -9,8 +9,8 @@ at the jumps, and between them every quantity is a smooth function:
   cut off behind its degree; a piece that no degree fits is cut where it misses most.
 
 Both are judged between the points they were made from, and cut or refined until they hold there.
-A residual is the largest deviation from the contact search at the points judged, plus half of the
-largest change of that deviation from one of them to the next, for what lies between.
+A residual is the largest deviation from the contact search at the points judged, plus the largest
+change of that deviation from one of them to the next, for what lies between.
 
 Columns: roll [rad], z [m], then for the left and the right side wheel_y [m], rail_y [m],
 angle [rad], radius [m]. Yaw is zero: that is what the paper tabulates.
@@ -202,7 +202,7 @@ class _Piece(NamedTuple):
 def _residual(miss: FloatArray) -> FloatArray:
     """Largest deviation over points (..., points, 10), with what may lie between the points."""
     between = np.abs(np.diff(miss, axis=-2)).max(axis=-2)
-    return np.abs(miss).max(axis=-2) + 0.5 * between
+    return np.abs(miss).max(axis=-2) + between
 
 
 def _locate_jumps(search: Search, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -317,7 +317,7 @@ def _cubics(search: Search, low: float, high: float, spacing: float) -> _Piece:
         judged, exact = _merged(judged, exact, added, search(added))
         spline = CubicSpline(nodes, values)
         miss = spline(judged) - exact
-        large = judged[np.abs(miss).max(axis=1) > 0.5]
+        large = judged[np.abs(miss).max(axis=1) > 0.33]
         cells = np.unique(np.searchsorted(nodes, large, side="right") - 1)
         cells = cells[np.diff(nodes)[cells] > _NARROWEST]
         if not cells.size:
