@@ -213,3 +213,21 @@ def test_roots_that_cross_are_followed_straight_on():
     slopes = np.diff(locus.eigenvalues.imag, axis=0) / np.diff(speeds)[:, None]
     np.testing.assert_allclose(slopes, np.tile(slopes[0], (len(speeds) - 1, 1)), atol=1e-6)
     assert sorted(np.round(slopes[0], 6)) == [-0.2, -0.2, 0.2, 0.2]
+
+
+def test_a_mode_is_one_scale_large_where_it_is_largest_in_scales():
+    """(1, 5) in metres with scales of 1 and 10 m: the first displacement leads, phase zero."""
+    system = FunctionSystem(
+        "ellipse",
+        lambda x, speed: np.array(
+            [
+                0.1 * (speed - 30.0) * x[0] - 1.4 * x[1],
+                35.0 * x[0] + 0.1 * (speed - 30.0) * x[1],
+            ]
+        ),
+        ["x [m]", "y [m]"],
+        [1.0, 10.0],
+    )
+    (point,) = hopf_points(system, 5.0, 80.0)
+    np.testing.assert_allclose(point.mode, [1.0, -5.0j], atol=1e-6)
+    assert point.eigenvalue == pytest.approx(7.0j, abs=1e-6)

@@ -127,12 +127,8 @@ GROUPS = {
     "piecewise": Group(("geometry/piecewise.py",), ("test_piecewise_geometry_between_samples.py",)),
     "contact": Group(
         ("contact/search.py", "contact/patches.py", "contact/forces.py"),
-        (
-            "test_wrench_of_the_patches.py",
-            "test_patches_of_a_sliding_wheelset.py",
-            "test_contact_against_CONTACT.py",
-            "test_contact_properties.py",
-        ),
+        ("test_wrench_of_the_patches.py", "test_contact_against_CONTACT.py"),
+        compiled=False,
     ),
 }
 ARITHMETIC = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*"}
@@ -344,7 +340,7 @@ def run_group(name: str, count: int, seed: int, results: dict, file: Path) -> No
             path = copy / PACKAGE / mutant.module
             source = path.read_text(encoding="utf-8")
             path.write_text(mutated(source, mutant), encoding="utf-8")
-            outcome, seconds = run_tests(copy, group, cache, 60.0 + 5.0 * usual)
+            outcome, seconds = run_tests(copy, group, cache, 30.0 + 2.0 * usual)
             path.write_text(source, encoding="utf-8")
             status = "survived" if outcome == "passed" else "killed"
             line = source.splitlines()[mutant.line - 1].strip()
