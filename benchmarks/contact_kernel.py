@@ -1,6 +1,6 @@
 """Cost of a wheelset's contact inside compiled code: on one patch, and on the motion of a car.
 
-The motion is that of a car on two DTU trucks on S1002 and UIC60, released 2 mm beside the middle at
+The motion is that of the catalogue's DTU car on S1002 and UIC60, released 2 mm beside the middle at
 40 m/s (vehicles.py): poses and velocities of its four wheelsets in every step. CPU time, the least
 of some turns; ratios within one run. Run `python benchmarks/contact_kernel.py`; --json prints the
 numbers only.
@@ -16,7 +16,7 @@ import exudyn as exu
 import numpy as np
 from numba import njit
 from scipy.spatial.transform import Rotation
-from vehicles import SPEED, car, settings
+from vehicles import SPEED, settings, vehicle
 
 from exudyn_wheelset import Track, Wheelset, contact_geometry
 from exudyn_wheelset.contact.forces import wheelset_forces
@@ -64,7 +64,7 @@ def searches(table, rows, repeats, result):
 
 def motion_of_a_car(steps: int = 1500) -> tuple[np.ndarray, np.ndarray]:
     """Table of its wheelsets and rows (n, 11) of axle and velocity."""
-    _, mbs = car()
+    _container, mbs = vehicle("dtu_car")
     contacts = [items.contact for items in wheelsets_of(mbs)]
     rows = []
 
