@@ -64,14 +64,14 @@ def test_far_beyond_saturation():
 def test_patches_more_slender_than_the_table(ratio):
     force, _ = errors(random_states(20, (ratio, 1.01 * ratio), 2, 2, 0.28, 5), 0.28)
     # forces in normalised states change slowly beyond the table's ends
-    assert force.max() < 0.1
+    assert force.max() < 0.12
 
 
 @pytest.mark.parametrize("ratio", [0.2, 0.5, 1.0, 2.0, 5.0, 10.0])
 def test_slopes(ratio):
     """Central differences over a tenth of saturation, at spins of none to twice saturation.
 
-    At spins of 0.9 to 1.1 the slope over y halves; there the table is up to 9 % off and not tested.
+    At spins of 0.9 to 1.1 the slope over y halves; there the table is up to 6 % off and not tested.
     """
     a, b = patch(ratio)
     unit_x, unit_y, unit_spin = saturation(a, b, 0.28)

@@ -2,13 +2,14 @@
 
     python tools/make_creep_table.py [folder of parts]
 
-Parts, two a shape, are kept in the folder (default build/creep_table); a second run makes those
+Parts, three a shape, are kept in the folder (default build/creep_table); a second run makes those
 that are missing. Then all are put together as exudyn_wheelset/creep/exact_table.npy, and its hash
 is written into exudyn_wheelset/creep/exact_table.py. About six minutes of one core.
 """
 
 import hashlib
 import io
+import math
 import re
 import sys
 import time
@@ -23,6 +24,7 @@ from exudyn_wheelset.creep.exact_nodes import (
     ROUND,
     SHAPES,
     THETAS,
+    WARP,
     cell_coefficients,
     forces_at_nodes,
     size_at,
@@ -30,21 +32,24 @@ from exudyn_wheelset.creep.exact_nodes import (
 )
 
 TABLE = Path(__file__).parents[1] / "exudyn_wheelset" / "creep" / "exact_table.npy"
-# half the range of sigma around saturation by spin that is solved twice as finely
+# half the range of sigma around saturation by spin that is solved twice as finely, half the range
+# of theta around pure spin that is solved there, and the equal parts of theta elsewhere
 REFINED = 0.14
+LEVEL = math.radians(22)
+COARSE = 18
 
 
-def solved(file: Path, shape: int, sigmas: np.ndarray) -> dict[str, np.ndarray]:
-    """Forces of one shape at all theta and psi, from the file or made and kept there."""
+def solved(
+    file: Path, shape: int, sigmas: np.ndarray, thetas: np.ndarray, psis: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Forces of one shape at those states, from the file or made and kept there."""
     if not file.exists():
         start = time.process_time()
         ratio = 10 ** (2 * shape / (SHAPES - 1) - 1)
         coefficients = cell_coefficients(ratio)
-        forces = [forces_at_nodes(ratio, coefficients, j, sigmas) for j in range(THETAS)]
+        forces = [forces_at_nodes(ratio, coefficients, theta, sigmas, psis) for theta in thetas]
         unfinished = file.with_name("unfinished.npz")
-        np.savez(
-            unfinished, ratio=ratio, coefficients=coefficients, forces=np.stack(forces, axis=1)
-        )
+        np.savez(unfinished, ratio=ratio, coefficients=coefficients, forces=np.stack(forces, 1))
         unfinished.rename(file)
         print(f"{file.name}: {time.process_time() - start:.0f} s", flush=True)
     with np.load(file) as found:
@@ -54,13 +59,16 @@ def solved(file: Path, shape: int, sigmas: np.ndarray) -> dict[str, np.ndarray]:
 def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     """The cells' coefficients of one shape, and H at its nodes.
 
-    Every second sigma is solved, and all near saturation by spin, where the slope over lateral
-    creepage falls by half within a tenth of the spin; the others are read off the coarse spline.
+    Solved are every second sigma at COARSE equal steps of theta, all sigma near saturation by spin,
+    and there the table's own theta near pure spin: the slope over lateral creepage falls by half
+    within a tenth of that spin. The other nodes are read off the splines through those.
     """
+    psis = 0.5 * np.pi * (np.arange(PSIS) + 0.5) / PSIS
+    even = np.pi * (np.arange(COARSE) + 0.5) / COARSE
     coarse = np.arange(2, RADII + 1, 2)
-    found = solved(folder / f"shape_{shape:02d}.npz", shape, coarse / RADII)
+    found = solved(folder / f"shape_{shape:02d}.npz", shape, coarse / RADII, even, psis)
     ratio, c = float(found["ratio"]), found["coefficients"]
-    values = remainder(ratio, c, found["forces"], coarse / RADII)
+    values = remainder(ratio, c, found["forces"], coarse / RADII, even, psis)
     spline = extrapolated(open_coefficients(values, 0), 0, 1, 1)
     all_values = np.empty((RADII, *values.shape[1:]))
     all_values[1::2] = values
@@ -68,11 +76,45 @@ def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     all_values[2::2] = 0.5 * (spline[1:-2] + spline[2:-1])
     all_values[0] = 0.5 * (spline[0] + spline[1])
     spin = (turn_scale(c[0], c[2], 1 / np.sqrt(ratio)) / c[2]) ** POWER
-    near = abs(np.arange(1, RADII, 2) - RADII * spin / (1 + spin)) <= REFINED * RADII
-    fine = np.arange(1, RADII, 2)[near]
-    found = solved(folder / f"fine_{shape:02d}.npz", shape, fine / RADII)
-    all_values[fine - 1] = remainder(ratio, c, found["forces"], fine / RADII)
-    return c, all_values
+    near = abs(np.arange(1, RADII + 1) / RADII - spin / (1 + spin)) <= REFINED
+    fine = 1 + np.flatnonzero(near)
+    odd = fine[fine % 2 == 1]
+    found = solved(folder / f"fine_{shape:02d}.npz", shape, odd / RADII, even, psis)
+    all_values[odd - 1] = remainder(ratio, c, found["forces"], odd / RADII, even, psis)
+
+    thetas = node_thetas()
+    wide = mirrored_coefficients(all_values)[:, :, 1:-1]
+    place = thetas / np.pi * COARSE - 0.5
+    node = np.minimum(np.floor(place + 0.5).astype(int), COARSE - 1)
+    t = (place - node)[:, None, None]
+    resampled = 0.5 * (0.5 - t) ** 2 * wide[:, node] + (0.75 - t * t) * wide[:, node + 1]
+    resampled = resampled + 0.5 * (0.5 + t) ** 2 * wide[:, node + 2]
+    resampled = smoothed_psi(resampled)
+    level = np.flatnonzero(abs(thetas - 0.5 * np.pi) < LEVEL)
+    spinning = np.arange(3)
+    states = fine / RADII, thetas[level], psis[spinning]
+    found = solved(folder / f"spin_{shape:02d}.npz", shape, *states)
+    resampled[np.ix_(fine - 1, level, spinning)] = remainder(ratio, c, found["forces"], *states)
+    return c, resampled
+
+
+def node_thetas() -> np.ndarray:
+    """The table's theta: theta - WARP/2 sin 2 theta at the middles of equal parts, by Newton."""
+    wanted = np.pi * (np.arange(THETAS) + 0.5) / THETAS
+    theta = wanted.copy()
+    for _ in range(60):
+        slope = 1 - WARP * np.cos(2 * theta)
+        theta -= (theta - 0.5 * WARP * np.sin(2 * theta) - wanted) / slope
+    return theta
+
+
+def smoothed_psi(coefficients: np.ndarray) -> np.ndarray:
+    """Values at the nodes of psi from coefficients (..., theta, psi, 3), by the mirrors."""
+    signs = np.array([1.0, -1.0, -1.0])
+    before = np.concatenate([coefficients[..., :1, :], coefficients[..., :-1, :]], axis=-2)
+    turned = signs * coefficients[..., ::-1, -1:, :]
+    after = np.concatenate([coefficients[..., 1:, :], turned], axis=-2)
+    return (before + 6 * coefficients + after) / 8
 
 
 def extrapolated(values: np.ndarray, axis: int, low: int, high: int) -> np.ndarray:
@@ -126,12 +168,18 @@ def mirrored_coefficients(values: np.ndarray) -> np.ndarray:
     return mirrored(found)
 
 
-def remainder(ratio: float, c: np.ndarray, forces: np.ndarray, sigmas: np.ndarray) -> np.ndarray:
-    """H of the module exact_table at nodes of a shape: (sigmas, THETAS, PSIS, 3)."""
+def remainder(
+    ratio: float,
+    c: np.ndarray,
+    forces: np.ndarray,
+    sigmas: np.ndarray,
+    thetas: np.ndarray,
+    psi: np.ndarray,
+) -> np.ndarray:
+    """H of the module exact_table at states of a shape: (sigmas, thetas, psi, 3)."""
     rho = np.array([size_at(sigma) for sigma in sigmas])
     s = (rho / (1 + rho))[:, None, None]
-    theta = np.pi * (np.arange(THETAS)[:, None] + 0.5) / THETAS
-    psi = 0.5 * np.pi * (np.arange(PSIS) + 0.5) / PSIS
+    theta = thetas[:, None]
     n_x, n_w = np.sin(theta) * np.sin(psi), np.sin(theta) * np.cos(psi)
     n_y = np.cos(theta)
     scale = turn_scale(c[0], c[2], 1 / np.sqrt(ratio))

@@ -8,8 +8,9 @@ along x at the sides (C11 b). rho = |(v_x, v_y, w)| and the direction
     psi = atan2(v_x, w) in [0, pi/2],    theta = atan2(hypot(v_x, w), v_y) in [0, pi]
 are the table's coordinates, sigma = rho^POWER/(1 + rho^POWER) standing for rho. At rho = 0 the law
 is linear, at sigma = 1 it is full sliding, in both for each direction. The fourth is lg(a/b).
-Nodes: sigma = 1/n, 2/n ... 1; theta and psi at the middles of equal parts, so that the mirror
-images of a node are nodes; lg(a/b) from -1 to 1.
+Nodes: sigma = 1/n, 2/n ... 1; psi and theta - WARP/2 sin 2 theta at the middles of equal parts, so
+that the mirror images of a node are nodes and more of them are where v_y is small; lg(a/b) from -1
+to 1.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ POWER = 1.25
 CELLS = 30
 SHAPES = 11
 RADII = 40
-THETAS = 18
+THETAS = 28
+WARP = 0.5
 PSIS = 9
 FAR = 1e4
 ROUND = 0.004
@@ -99,16 +101,15 @@ def turn_scale(c11: float, c23: float, b_over_c: float) -> float:
 
 @compiled
 def forces_at_nodes(
-    ratio: float, coefficients: NDArray, theta_index: int, sigmas: NDArray
+    ratio: float, coefficients: NDArray, theta: float, sigmas: NDArray, psis: NDArray
 ) -> NDArray:
-    """Forces as `patch_forces` at nodes of one shape and theta: (sigmas, PSIS, 3)."""
-    forces = np.empty((sigmas.size, PSIS, 3))
+    """Forces as `patch_forces` at states of one shape and theta: (sigmas, psis, 3)."""
+    forces = np.empty((sigmas.size, psis.size, 3))
     p_x = np.zeros((CELLS, CELLS + 1))
     p_y = np.zeros((CELLS, CELLS + 1))
     scale = turn_scale(coefficients[0], coefficients[2], 1.0 / math.sqrt(ratio))
-    theta = math.pi * (theta_index + 0.5) / THETAS
-    for k in range(PSIS):
-        psi = 0.5 * math.pi * (k + 0.5) / PSIS
+    for k in range(psis.size):
+        psi = psis[k]
         p_x[:] = 0.0
         p_y[:] = 0.0
         for i in range(sigmas.size):

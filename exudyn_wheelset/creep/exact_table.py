@@ -12,9 +12,11 @@ B-splines through the table's nodes: slopes are continuous. Beyond the ends of t
 and the law is evaluated for xi_x, phi >= 0, so mirror images are exact to the last bit.
 
 Coefficients: C above are those of the cells the table was solved on, within 1 to 2 % of Kalker's
-(5 % where his table is interpolated between b/a = 0.1 and 0.2). Kalker's hold at zero creepage:
+(6 % where his table is interpolated between b/a = 0.1 and 0.2). Kalker's hold at zero creepage:
     v = v_cells + (v_Kalker - v_cells)/(1 + (rho/NEAR)^2).
-Poisson's number enters by them alone: C_cells(nu) = C_cells(0.28) C_Kalker(nu)/C_Kalker(0.28).
+Poisson's number nu enters by them alone: C_cells(nu) = C_cells(0.28) C_Kalker(nu)/C_Kalker(0.28),
+and beyond saturation, rho > BETWEEN, where the direction of slip decides and stiffness does not,
+the ratios of v_x, v_y, w become those of 0.28.
 Friction enters by mu N alone, the same all over the patch: for friction that falls with speed give
 the law the mu of that speed. Beyond a/b = 0.1 and 10 the table is that of the end, at the same
 (v_x, v_y, w) of the patch, its moment stretched with the long axis over sqrt(a b).
@@ -47,6 +49,7 @@ from exudyn_wheelset.creep.exact_nodes import (
     ROUND,
     SHAPES,
     THETAS,
+    WARP,
     turn_scale,
 )
 from exudyn_wheelset.creep.kalker import kalker_coefficients
@@ -56,8 +59,9 @@ from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 LAW = CreepLaw("exact-table", 7, "Kalker 1990, complete theory, interpolated")
 
 FILE = Path(__file__).with_name("exact_table.npy")
-SHA256 = "5b4aeff3b1769d8d69d448f59121863dc547a6a3874db6a05722a5f916662a5f"
+SHA256 = "25945a7089aa4adf3a604ba672844869c90b9254eaaa3c9dd1c5cea78085ad4d"
 NEAR = 0.25
+BETWEEN = 1.5
 LEAST_RATIO = 0.1
 SMALLEST = 1e-60
 LARGEST = 1e30
@@ -236,6 +240,13 @@ def exact_table(
     v_x = state_x * c11 * r11
     v_y = state_y * c22 * r22
     w = state_w * scale
+    if poisson != POISSON:
+        t11, t22, t23, _ = kalker_coefficients(a, b, POISSON)
+        rough = v_x * v_x + v_y * v_y + w * w
+        far = rough / (BETWEEN * BETWEEN + rough)
+        common = c22 / t22
+        v_x *= 1.0 + far * (common * t11 / c11 - 1.0)
+        w *= 1.0 + far * (common * turn_scale(t11 * r11, t23 * r23, b / length) / scale - 1.0)
     near = 1.0 / (1.0 + (v_x * v_x + v_y * v_y + w * w) / (NEAR * NEAR))
     v_x *= 1.0 + near * (1.0 / r11 - 1.0)
     v_y *= 1.0 + near * (1.0 / r22 - 1.0)
@@ -246,7 +257,7 @@ def exact_table(
         table,
         x_shape,
         RADII * _sigma(rho) - 1.0,
-        THETAS / math.pi * math.atan2(side, v_y) - 0.5,
+        THETAS / math.pi * (math.atan2(side, v_y) - WARP * (side / rho) * (v_y / rho)) - 0.5,
         2.0 * PSIS / math.pi * math.atan2(v_x, w) - 0.5,
     )
     s = rho / (1.0 + rho)
@@ -257,7 +268,7 @@ def exact_table(
     of_w = c33 * r33 / scale
     stretch = 1.0
     beyond = 0.0
-    if ratio != a / b:
+    if ratio != a / b or poisson != POISSON:
         of_spin, of_y, of_w = _linear_parts(ratio, r11, r22, r23, r32, r33)
         stretch = math.sqrt(max(ratio / (a / b), a / b / ratio))
         beyond = near * (c23 * state_w - of_spin * w)
