@@ -215,6 +215,17 @@ def test_roots_that_cross_are_followed_straight_on():
     assert sorted(np.round(slopes[0], 6)) == [-0.2, -0.2, 0.2, 0.2]
 
 
+def test_what_is_worse_is_named_with_its_frequency():
+    """body_hunting, 3 rad/s, grows below 12 m/s, from the lower end on."""
+    found = linear_critical_speed(linear_system(hunting, body_hunting), 5.0, 80.0)
+    assert any("(0.477 Hz) grows already at the lower end" in remark for remark in found.remarks)
+
+
+def test_nothing_that_oscillates_has_no_growth_of_hunting():
+    linear = linearise(linear_system(lambda speed: -0.3), 20.0)
+    assert linear.growth_rate == -np.inf
+
+
 def test_a_mode_is_one_scale_large_where_it_is_largest_in_scales():
     """(1, 5) in metres with scales of 1 and 10 m: the first displacement leads, phase zero."""
     system = FunctionSystem(
@@ -231,3 +242,20 @@ def test_a_mode_is_one_scale_large_where_it_is_largest_in_scales():
     (point,) = hopf_points(system, 5.0, 80.0)
     np.testing.assert_allclose(point.mode, [1.0, -5.0j], atol=1e-6)
     assert point.eigenvalue == pytest.approx(7.0j, abs=1e-6)
+
+
+def test_a_hopf_point_is_named_by_its_frequency():
+    """A wheelset that bounces at 66 Hz does so on its contact: springs hold it below 60 Hz."""
+    rate = 2.0 * np.pi * 66.0
+
+    def derivative(x, speed):
+        growth = 0.1 * (speed - 30.0)
+        return np.array(
+            [growth * x[0] - rate * x[1], rate * x[0] + growth * x[1], -x[2], -2.0 * x[3]]
+        )
+
+    names = ["axle: z [m]", "axle: roll [rad]", "axle: y [m]", "axle: yaw [rad]"]
+    system = FunctionSystem("bouncing", derivative, names, np.ones(4))
+    system.wheelset_names = ("axle",)
+    (point,) = hopf_points(system, 5.0, 80.0)
+    assert point.mode_name == "contact bounce"
