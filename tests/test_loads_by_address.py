@@ -1,7 +1,8 @@
 """Loads that read Exudyn's memory against loads that copy it: the same bits, whatever happens.
 
 The copying loads ask Exudyn for its coordinates at every call and keep nothing between calls, so
-they cannot be stale and know no address.
+they cannot be stale and know no address of Exudyn's. Both run the same compiled code: sums are in
+any order in it, and two compilations of it need not agree in the last bit.
 """
 
 import exudyn as exu
@@ -9,7 +10,8 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import Track, Wheelset, create_wheelset, dtu_truck, wheelsets_of
-from exudyn_wheelset.coupling.wheel_rail import body_wrench
+from exudyn_wheelset.coupling.addresses import address_of
+from exudyn_wheelset.coupling.wheel_rail import wrench_at
 
 WHEELSET = Wheelset(mass=1813.0, inertia=(1120.0, 112.0, 1120.0), radius=0.46, wheel="S1002")
 
@@ -21,15 +23,14 @@ def copying_loads(mbs):
 
             def wrench(mbs, t, load, contact=items.contact, node=items.node, part=part):
                 data = mbs.systemData
+                q, v = np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
+                first = int(data.GetNodeLTGODE2(node)[0])
+                table, state = contact.table, contact._state
                 contact.forget()
-                return body_wrench(
-                    data.GetODE2Coordinates(),
-                    data.GetODE2Coordinates_t(),
-                    int(data.GetNodeLTGODE2(node)[0]),
-                    contact.table,
-                    contact._state,
-                    part,
-                )
+                arrays = (q, v, table, state)
+                sizes = (len(q), len(table), len(state))
+                block = np.array([*map(address_of, arrays), *sizes, first, part], dtype=np.int64)
+                return wrench_at(address_of(block))
 
             mbs.SetLoadParameter(load, "loadVectorUserFunction", wrench)
 
