@@ -132,7 +132,8 @@ def test_infinite_series_stiffness_is_the_plain_damper():
 
 
 def test_wheel_loads_are_weight_and_geometry():
-    coach = catalogue.manchester_coach()
+    # A law without spin moment: those of tapered wheels brake the coach and pitch it by a newton.
+    coach = catalogue.manchester_coach(creep="polach-kalker")
     even = (BODY + 2 * FRAME + 4 * AXLE) * GRAVITY / 8.0
     for loads in static_equilibrium(coach).wheel_loads.values():
         assert loads == pytest.approx((even, even), rel=1e-6)

@@ -97,7 +97,7 @@ class Contact:
     """
 
     normal: str = "hertz"
-    creep: Any = "polach"
+    creep: Any = "exact-table"
     friction: float = 0.3
     shear_modulus: float = 82.0e9
     poisson: float = 0.28
