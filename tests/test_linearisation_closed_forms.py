@@ -239,6 +239,7 @@ def test_a_mode_is_one_scale_large_where_it_is_largest_in_scales():
         ["x [m]", "y [m]"],
         [1.0, 10.0],
     )
+    system.displacement_indices = (0, 1)
     (point,) = hopf_points(system, 5.0, 80.0)
     np.testing.assert_allclose(point.mode, [1.0, -5.0j], atol=1e-6)
     assert point.eigenvalue == pytest.approx(7.0j, abs=1e-6)

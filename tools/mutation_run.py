@@ -127,7 +127,11 @@ GROUPS = {
     "piecewise": Group(("geometry/piecewise.py",), ("test_piecewise_geometry_between_samples.py",)),
     "contact": Group(
         ("contact/search.py", "contact/patches.py", "contact/forces.py"),
-        ("test_wrench_of_the_patches.py", "test_contact_against_CONTACT.py"),
+        (
+            "test_wrench_of_the_patches.py",
+            "test_contact_against_CONTACT.py",
+            "test_patches_of_a_sliding_wheelset.py",
+        ),
         compiled=False,
     ),
 }
