@@ -15,20 +15,11 @@ from scipy.optimize import brentq, minimize_scalar
 from exudyn_wheelset import Track, Wheelset
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
 from exudyn_wheelset.contact.curve import curve_point
-from exudyn_wheelset.contact.layout import Axle, side_of
+from exudyn_wheelset.contact.layout import Axle, Slip, side_of
 from exudyn_wheelset.contact.locus import locus_point, rail_foot, wheel_point, wheel_section
 from exudyn_wheelset.contact.tables import contact_tables
 
 YAWS_AND_ROLLS = [(0.0, 0.0), (0.03, 0.0), (-0.03, 0.01), (0.08, -0.02), (-0.05, -0.03)]
-
-
-class Slip:
-    """Fields of the rigid motion relative to the rail that the kernels read."""
-
-    def __init__(self, velocity, rates, speed):
-        self.x, self.y, self.z = velocity
-        self.about_x, self.about_y, self.about_z = rates
-        self.speed = speed
 
 
 def axle_vector(yaw, roll):
@@ -98,7 +89,7 @@ def test_points_of_the_profile(s1002, hand, yaw, roll):
         x, py, pz, ny, nz, arm, wheel_y, curvature = wheel_point(s1002, side, arc, axle)
         np.testing.assert_allclose([x, py - 0.004, pz + 0.002], wanted, atol=1e-13)
         np.testing.assert_allclose([ny, nz], normal[1:], atol=1e-9)
-        assert wheel_y == y
+        assert wheel_y == pytest.approx(y, abs=1e-15)
         assert curvature == pytest.approx((y1 * z2 - z1 * y2) / math.hypot(y1, z1) ** 3, rel=1e-4)
         section = wheel_section(s1002, side, arc, axle)
         # wheel_section takes the profile's tangent as of unit length.
@@ -141,7 +132,7 @@ def test_velocity_and_creepage_of_a_particle():
     for _ in range(20):
         velocity, rates, place = random.normal(size=(3, 3))
         speed, angle = random.uniform(5.0, 60.0), random.uniform(-1.2, 1.2)
-        slip = Slip(velocity, rates, speed)
+        slip = Slip(*velocity, *rates, speed)
         particle = velocity + np.cross(rates, place)
         np.testing.assert_allclose(slip_velocity(slip, *place), particle, atol=1e-14)
         normal = np.array([0.0, math.sin(angle), math.cos(angle)])
