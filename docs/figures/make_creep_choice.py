@@ -171,7 +171,7 @@ def draw(path: Path, errors: dict, steep: dict, points: dict, spent: dict[str, f
         xlabel="spin over that of saturation [-]",
         ylabel="distance from the exact force, rms [% of $\\mu N$]",
         title="Force: five shapes of patch, creepage 0.1 to 2.5 of saturation",
-        ylim=(0.01, 200.0),
+        ylim=(0.003, 200.0),
     )
     for axis, column, name in ((axes[0, 1], 0, "x"), (axes[1, 0], 1, "y")):
         for label, style in styles.items():
@@ -212,8 +212,7 @@ def draw(path: Path, errors: dict, steep: dict, points: dict, spent: dict[str, f
     axes[0, 0].legend(
         [f"{label} (cost {spent[label]:.2g})" for label in styles],
         fontsize="small",
-        loc="center",
-        bbox_to_anchor=(0.5, 0.37),
+        loc="lower center",
         ncols=2,
     )
     for axis in axes.flat:
