@@ -17,7 +17,7 @@ from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_referenc
 
 MODELS = Path(__file__).parents[1] / "models"
 BOGIE = {"right_hand_sides": 60_677, "jacobians": 8_480, "newton_steps": 273}
-S1002 = {"right_hand_sides": 214_470, "jacobians": 11_904, "newton_steps": 686}
+S1002 = {"right_hand_sides": 214_470, "jacobians": 11_904, "newton_steps": 657}
 
 
 def load(name):

@@ -183,11 +183,12 @@ def test_addresses_do_not_survive_pickling():
     """In a fresh process the function lies elsewhere: descriptions and systems are made anew."""
     system = LateralWheelset(creep=shen)
     expected = rate_of(LateralWheelset(creep=BUILT_IN))
-    np.testing.assert_array_equal(rate_of(pickle.loads(pickle.dumps(system))), expected)
+    # Kernels compiled in another place may round otherwise.
+    np.testing.assert_allclose(rate_of(pickle.loads(pickle.dumps(system))), expected, rtol=1e-12)
     contact = Contact(creep=shen)
     assert pickle.loads(pickle.dumps(contact)) == contact
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        np.testing.assert_array_equal(pool.submit(rate_of, system).result(), expected)
+        np.testing.assert_allclose(pool.submit(rate_of, system).result(), expected, rtol=1e-12)
 
 
 def test_kernels_kept_on_disk_serve_every_law(tmp_path):

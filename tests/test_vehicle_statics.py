@@ -93,8 +93,11 @@ def test_what_has_settled_stands_with_relaxed_dampers():
 
 
 def test_a_given_preload_counts_once_for_an_element_of_several_laws():
-    """An air spring of two laws that carries 40 kN of a car that is left out."""
-    made = VehicleBuilder("truck", Track("UIC60"))
+    """An air spring of two laws that carries 40 kN of a car that is left out.
+
+    The creep law has no spin moment, which would brake the truck and shift the loads.
+    """
+    made = VehicleBuilder("truck", Track("UIC60"), Contact(creep="polach-kalker"))
     frame = made.body("frame", mass=3e3, inertia=(2e3, 2e3, 3e3), centre=(0, 0, 0.6))
     for name, x in (("leading", 1.2), ("trailing", -1.2)):
         axle = made.wheelset(name, AXLE, x=x)
