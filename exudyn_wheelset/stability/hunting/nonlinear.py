@@ -27,7 +27,8 @@ from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.settling import Settling
+from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
+from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
@@ -38,11 +39,14 @@ Method = Literal["continuation", "descent"]
 SEARCH = ((5.0, 60.0), (60.0, 120.0), (120.0, 240.0), (240.0, 480.0))
 
 
-# A large disturbance: the hunting mode with this many scales (millimetres) of lateral displacement.
-LARGE = 5.0
+# Large disturbances: the hunting mode with so many scales (millimetres) of lateral displacement, on
+# the flange and short of it. A motion on the flange may hunt where a smaller one does not.
+LARGE = (10.0, 5.0)
 # The descent that checks a continuation takes steps of this share of the Hopf point's speed and
 # adds no more than so many branches.
 CHECK_STEP, MOST_BRANCHES = 0.04, 2
+# Criterion of the coarse descent and of the simulated check beside a fold.
+SHORT = Settling(tolerance=5e-3, cycles=150)
 
 
 class NoLimitCycleError(AnalysisError):
@@ -123,18 +127,18 @@ def nonlinear_critical_speed(
     high = 1.1 * hopf.speed if high is None else float(high)
     if method == "continuation":
         return _by_continuation(system, hopf, (low, high), check, settings, progress)
-    descent = quasi_static_descent(
-        system,
-        high,
-        low,
-        step=0.01 * hopf.speed if step is None else step,
-        tolerance=tolerance,
-        disturbance=LARGE,
-        watch=watch,
-        settling=settling,
-        state_file=state_file,
-        progress=progress,
-    )
+    options: dict[str, Any] = {
+        "step": 0.01 * hopf.speed if step is None else step,
+        "tolerance": tolerance,
+        "watch": watch,
+        "settling": settling,
+        "state_file": state_file,
+        "progress": progress,
+    }
+    try:
+        descent = quasi_static_descent(system, high, low, disturbance=LARGE[0], **options)
+    except AnalysisError:
+        descent = quasi_static_descent(system, high, low, disturbance=LARGE[1], **options)
     if descent.outcome.ending is Ending.INTERRUPTED:
         raise KeyboardInterrupt(descent.reason)
     if np.isnan(descent.jumped):
@@ -182,6 +186,9 @@ def _by_continuation(
         message = f"no limit cycle is stable for certain; {branches[0].reason}"
         raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
     speed, what, branch = found
+    fold = _simulated_fold(system, branch, speed)
+    if fold is not None:
+        speed, what = fold, "the fold of the limit cycle, beside which simulated motion stays"
     place = "from the Hopf point" if branch is branches[0] else "from a motion that hunts"
     how = (
         f"{speed:.4f} m/s is {what}, on a branch of {len(branch)} periodic orbits followed by "
@@ -213,6 +220,28 @@ def _lowest(branches: list[Branch]) -> tuple[float, str, Branch] | None:
     return min(found, key=lambda entry: entry[0]) if found else None
 
 
+def _simulated_fold(system: DynamicSystem, branch: Branch, speed: float) -> float | None:
+    """The lowest fold below `speed` beside which simulated motion stays on a cycle.
+
+    Multipliers may leave the stability next to a fold open; a motion from the orbit decides.
+    """
+    watched = watched_trucks(system)
+    for fold in sorted(branch.folds):
+        if fold >= speed or fold.side != "lowest":
+            continue
+        for index in (fold.index + 1, fold.index - 1):
+            if not 0 <= index < len(branch) or not branch.uncertain[index]:
+                continue
+            orbit = branch.orbits[index]
+            motion = WatchedMotion(
+                system, orbit.speed, orbit.states[0], orbit.period, watched, SHORT
+            )
+            before = max(float(orbit.half_peak_to_peak()[place]) for place in watched.values())
+            if motion.decide() is Ending.SETTLED and motion.means[-1] > 0.8 * before:
+                return float(fold)
+    return None
+
+
 def _hunting_below(
     system: DynamicSystem,
     hopf: CriticalPoint,
@@ -226,24 +255,30 @@ def _hunting_below(
     low, high = speeds
     answer = found[0] if found else high
     coarse = CHECK_STEP * max(abs(hopf.speed), high - low)
-    begin = min(high, max(hopf.speed, found[0] if found else low) + 0.5 * coarse)
-    try:
-        descent = quasi_static_descent(
-            system,
-            begin,
-            max(low, answer - 6.0 * coarse),
-            step=coarse,
-            tolerance=coarse,
-            disturbance=LARGE,
-            settling=Settling(tolerance=5e-3, cycles=150),
-        )
-    except AnalysisError:
-        return f"checked: no hunting at {begin:.4g} m/s from a large disturbance", None
-    lowest = float(np.min(descent.speeds))
-    if found is not None and lowest > answer - 0.25 * coarse:
-        return f"checked by descent from a large disturbance at {begin:.4g} m/s: none lower", None
-    state = descent.states[int(np.argmin(descent.speeds))]
-    return f"a motion from a large disturbance hunts at {lowest:.4g} m/s", (state, lowest)
+    margin = answer - 0.25 * coarse if found is not None else np.inf
+    hunted = False
+    for size in LARGE:
+        try:
+            descent = quasi_static_descent(
+                system,
+                high,
+                max(low, answer - 6.0 * coarse),
+                step=coarse,
+                tolerance=coarse,
+                disturbance=size,
+                settling=SHORT,
+            )
+        except AnalysisError:
+            continue
+        hunted = True
+        lowest = float(np.min(descent.speeds))
+        if lowest <= margin:
+            state = descent.states[int(np.argmin(descent.speeds))]
+            return f"a motion from a large disturbance hunts at {lowest:.4g} m/s", (state, lowest)
+    where = f"from large disturbances at {high:.4g} m/s"
+    if not hunted:
+        return f"checked: no hunting {where}", None
+    return f"checked by descent {where}: none lower", None
 
 
 def _trucks_at(system: DynamicSystem, branch: Branch, speed: float) -> tuple[str, ...]:
