@@ -186,6 +186,9 @@ def _by_continuation(
         message = f"no limit cycle is stable for certain; {branches[0].reason}"
         raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
     speed, what, branch = found
+    if speed <= speeds[0] + 1e-6 * (speeds[1] - speeds[0]):
+        message = f"hunting has no lowest speed within {speeds[0]:g} to {speeds[1]:g} m/s"
+        raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
     fold = _simulated_fold(system, branch, speed)
     if fold is not None:
         speed, what = fold, "the fold of the limit cycle, beside which simulated motion stays"
