@@ -50,6 +50,7 @@ _PLACES = {
     "WheelsetWarning": "errors",
     "WheelsetItems": "coupling.registration",
     "WheelsetOnFrame": "catalogue.wheelset_on_frame",
+    "contact_energy": "contact.wheelset_contact",
     "contact_forces": "contact.wheelset_contact",
     "contact_geometry": "geometry.rigid",
     "create_wheelset": "coupling.create",

@@ -157,12 +157,13 @@ def test_forces_do_no_work_beyond_their_moments(pose, velocity):
     forces = contact_forces(*CASES["S1002"], pose, velocity, creep="fastsim")
     wrench = forces.force @ velocity[:3] + forces.moment @ velocity[3:]
     total = size = 0.0
-    for patch in (*forces.left, *forces.right):
+    sides = [(patch, 1.0) for patch in forces.left] + [(patch, -1.0) for patch in forces.right]
+    for patch, hand in sides:
         normal = np.array(patch.normal)
         tangent = np.cross(normal, [1.0, 0.0, 0.0])
         force = np.array([patch.fx, 0.0, 0.0]) + patch.fy * tangent + patch.normal_force * normal
         particle = np.array(velocity[:3]) + np.cross(velocity[3:], patch.position)
-        total += force @ particle + patch.mz * normal @ velocity[3:]
+        total += force @ particle + (patch.mz + hand * patch.twist) * normal @ velocity[3:]
         size += np.linalg.norm(force) * np.linalg.norm(particle)
     assert wrench == pytest.approx(total, abs=1e-9 * (size + 1.0))
 

@@ -25,7 +25,7 @@ ProfileSource = Profile | str | PathLike
 
 
 # Names of the normal contact models and their numbers in the kernels.
-NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips": 3}
+NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips": 3, "energy": 4}
 
 
 def _profile_of_kind(source: ProfileSource, kind: str) -> Profile:
@@ -85,8 +85,9 @@ class Contact:
     """How wheels and rails press and rub on each other.
 
     normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
-    point), "virtual-penetration" or "strips" (patches that are no ellipse, near-conformal contact,
-    at some thirty times the cost); creep: name of a creep law, or a compiled function of one's own
+    point), "virtual-penetration", "energy" (the gradient of one stored energy, at two to seven
+    times the cost) or "strips" (patches that are no ellipse, near-conformal contact, at some
+    thirty times); creep: name of a creep law, or a compiled function of one's own
     (`register_creep_law`); friction [-]; shear_modulus [Pa];
     poisson [-]; damping [s/m] of the normal contact, whose force it makes 1 + damping times the
     closing speed as large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by

@@ -57,7 +57,10 @@ def _patch_creep(k, patches, shares, count, parameters):
     creepage = Creepage(patches[k].creep_x, patches[k].creep_y, patches[k].spin)
     if share.separation > 0.0:
         fx, fy, mz = _law_force(creepage, share.own, share.damping, parameters)
-    if share.separation < 1.0:
+        fx *= share.separation
+        fy *= share.separation
+        mz *= share.separation
+    if share.share > 0.0 and share.separation < 1.0:
         # A share of a merged patch has its share of the creep force of the whole, which slips
         # with the mean creepage.
         for j in range(count):
@@ -70,9 +73,9 @@ def _patch_creep(k, patches, shares, count, parameters):
                 )
         gx, gy, gz = _law_force(creepage, share.merged, share.damping, parameters)
         rest = (1.0 - share.separation) * share.share
-        fx = share.separation * fx + rest * gx
-        fy = share.separation * fy + rest * gy
-        mz = share.separation * mz + rest * gz
+        fx += rest * gx
+        fy += rest * gy
+        mz += rest * gz
     return fx, fy, mz
 
 
@@ -114,7 +117,8 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]
             ny, nz = patch.normal[1], patch.normal[2]
             _, slip_y, slip_z = slip_velocity(slip, px, py, pz)
-            closing = -(ny * slip_y + nz * slip_z)
+            about = ny * slip.about_y + nz * slip.about_z
+            closing = -(ny * slip_y + nz * slip_z + patch.twist / patch.normal_force * about)
             shares[k].damping = max(1.0 + options.damping * closing, 0.0)
             patch.creep_x, patch.creep_y, patch.spin = creepage_at(slip, px, py, pz, ny, nz)
         for k in range(count):
@@ -133,8 +137,10 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             force_y += mirror * gy
             force_z += gz
             moment_x += mirror * (creep.moment_x + py * gz - pz * gy)
-            my = creep.moment_normal * ny + creep.moment_lateral * nz
-            mz = creep.moment_normal * nz - creep.moment_lateral * ny
+            patch.twist *= shares[k].damping
+            about = creep.moment_normal + patch.twist
+            my = about * ny + creep.moment_lateral * nz
+            mz = about * nz - creep.moment_lateral * ny
             moment_y += my + (pz * creep.x - px * gz)
             moment_z += mirror * (mz + (px * gy - py * creep.x))
             patch.fx = creep.x

@@ -86,6 +86,29 @@ def _ellipse_shape(A: float, B: float) -> tuple[float, float, float]:
 
 
 @compiled(fastmath=AS_REAL_NUMBERS)
+def shape_and_slopes(t: float) -> tuple[float, ...]:
+    """Give axis(t), axis(-t), depth(t), their first derivatives by t, axes' second ones."""
+    inside = min(max(t, -LOG_RATIO_END), LOG_RATIO_END)
+    i = min(int((inside + LOG_RATIO_END) * _PER_INTERVAL), INTERVALS - 1)
+    s = inside - (i / _PER_INTERVAL - LOG_RATIO_END)
+    row = _SHAPE[i]
+    slope_a = row[1] + s * (2.0 * row[2] + 3.0 * s * row[3])
+    slope_b = row[5] + s * (2.0 * row[6] + 3.0 * s * row[7])
+    slope_depth = row[9] + s * (2.0 * row[10] + 3.0 * s * row[11])
+    beyond = t - inside
+    return (
+        row[0] + s * (row[1] + s * (row[2] + s * row[3])) + beyond * slope_a,
+        row[4] + s * (row[5] + s * (row[6] + s * row[7])) + beyond * slope_b,
+        row[8] + s * (row[9] + s * (row[10] + s * row[11])) + beyond * slope_depth,
+        slope_a,
+        slope_b,
+        slope_depth,
+        2.0 * row[2] + 6.0 * s * row[3],
+        2.0 * row[6] + 6.0 * s * row[7],
+    )
+
+
+@compiled(fastmath=AS_REAL_NUMBERS)
 def hertz_from_load(
     A: float, B: float, normal_force: float, shear_modulus: float, poisson: float
 ) -> tuple[float, float, float, float]:

@@ -8,6 +8,7 @@ one array is the cheapest thing to hand over (docs/decisions/kernels-with-record
     PARAMETERS  what `contact_parameters` makes
     CANDIDATE   a node of the scan where a lobe may be, before it is refined
     LOBE        a maximum of the penetration: its place, its territory, moments of its zone
+    LOAD        a semi-ellipsoid of pressure (energy.py)
     SHARE       what a patch's creep force needs besides PATCH while lobes merge
     STRIP       a strip of a patch along the rolling direction (strips.py)
     PATCH       the fields of `Patch`, in their order
@@ -28,9 +29,15 @@ import numpy as np
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 
-MOST_LOBES = 3
+MOST_LOBES = 4
+# A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic (energy.py);
+# while that one comes or goes, and while lobes merge, up to three sets are patches.
+MOST_ELLIPSES = MOST_LOBES + 1
+MOST_PATCHES = 2 * MOST_LOBES + MOST_ELLIPSES - 1
+GAUSS_COUNT = 12
 STRIPS_A_LOBE = 20
 MOST_NODES = 320
+ENERGY = NORMAL_MODELS["energy"]
 HERTZ_LOCAL = NORMAL_MODELS["hertz-local"]
 STRIPS = NORMAL_MODELS["strips"]
 VIRTUAL_PENETRATION = NORMAL_MODELS["virtual-penetration"]
@@ -45,7 +52,9 @@ class Patch:
     force on the wheel along x and the lateral tangent (right-handed triad, y to the left on both
     sides), mz [N m] about the normal, a, b [m] semi-axes along rolling and lateral, penetration
     [m], position (3) [m] from the wheelset's centre and normal (3), track frame; energy [J]
-    elastic energy stored; peak_pressure [Pa].
+    elastic energy stored; peak_pressure [Pa]; twist [N m] moment about the normal of the normal
+    pressures alone, for a patch whose parts stand at different leads (yaw), counted as on the
+    left wheel: on the right one it turns the other way.
     """
 
     wheel_y: float
@@ -66,6 +75,7 @@ class Patch:
     normal: tuple[float, float, float]
     energy: float
     peak_pressure: float
+    twist: float
 
 
 def _record(*columns: tuple[Any, ...]) -> np.dtype:
@@ -139,14 +149,38 @@ SHARE = _record(
 )  # fmt: skip
 _SHAPES: dict[str, tuple[int, ...]] = {"float": (), "tuple[float, float, float]": (3,)}
 PATCH = _record(*((field.name, "f8", _SHAPES[str(field.type)]) for field in fields(Patch)))
+# place: rail arc length of the centre [m], log_b: ln of the lateral semi-axis in m, t = ln(B/A):
+# what the energy is stationary in. Averages of the penetration over the load and derivatives by
+# place and by ln b; what `ellipse` says; leads: of the wheel's arc over the rail's at the points.
+LOAD = _record(
+    ("place", "f8"), ("log_b", "f8"), ("t", "f8"),
+    ("mean", "f8"), ("slope", "f8"), ("spread", "f8"),
+    ("bend", "f8"), ("slope_spread", "f8"), ("spread_spread", "f8"),
+    ("along", "f8"), ("relative", "f8"), ("force", "f8"), ("lateral", "f8"),
+    ("a", "f8"), ("b", "f8"), ("approach", "f8"), ("width", "f8"), ("own", "f8"), ("work", "f8"),
+    ("force_by_t", "f8"), ("force_by_tt", "f8"), ("own_by_t", "f8"),
+    ("ratio_by_t", "f8"), ("ratio_by_tt", "f8"),
+    ("sunk", "f8"), ("lobe", "i8"), ("leads", "f8", (GAUSS_COUNT,)),
+)  # fmt: skip
+# A set of loads: how many, the energy [J] and the weight of its forces.
+SET = _record(("count", "i8"), ("energy", "f8"), ("weight", "f8"))
+# Lines of force of the separation x of two lobes: rail place, wheel arc and dx/dp.
+LINE = _numbers("place", "arc", "weight")
+COUPLING = _numbers(
+    "total", "r", "l1", "t1", "l2", "t2", "rr", "rl1", "rt1", "rl2", "rt2",
+    "l1l1", "l1t1", "t1t1", "l2l2", "l2t2", "t2t2", "l1l2", "l1t2", "t1l2", "t1t2",
+)  # fmt: skip
 WORK = _record(
     ("candidates", CANDIDATE, (MOST_LOBES,)), ("lobes", LOBE, (MOST_LOBES,)),
-    ("shares", SHARE, (MOST_LOBES,)), ("depths", "f8", (MOST_NODES,)),
+    ("shares", SHARE, (MOST_PATCHES,)), ("depths", "f8", (MOST_NODES,)),
     ("strips", STRIP, (MOST_LOBES * STRIPS_A_LOBE,)),
+    ("loads", LOAD, (3, MOST_ELLIPSES)), ("sets", SET, (3,)), ("kept", LOAD, (MOST_ELLIPSES,)),
+    ("coupling", COUPLING), ("merging", LINE, (3,)), ("wrenches", "f8", (2, 5)),
+    ("matrix", "f8", (3 * MOST_ELLIPSES, 3 * MOST_ELLIPSES + 1)),
 )  # fmt: skip
 RESULT = _record(
     ("force", "f8", (3,)), ("moment", "f8", (3,)),
-    ("count", "i8", (2,)), ("patches", PATCH, (2, MOST_LOBES)), ("work", WORK),
+    ("count", "i8", (2,)), ("patches", PATCH, (2, MOST_PATCHES)), ("work", WORK),
 )  # fmt: skip
 PARAMETER_COUNT = PARAMETERS.itemsize // 8
 RESULT_SIZE = RESULT.itemsize // 8

@@ -27,6 +27,7 @@ from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
+    ENERGY,
     HERTZ_LOCAL,
     STRIPS,
     VIRTUAL_PENETRATION,
@@ -35,6 +36,7 @@ from exudyn_wheelset.contact.layout import (
     Zone,
     side_of,
 )
+from exudyn_wheelset.contact.load_patches import load_patches
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
 from exudyn_wheelset.contact.strip_patches import strip_patches
@@ -231,6 +233,8 @@ def side_patches(table, hand, axle, parameters, work, patches):
     shares = work.shares
     material = Material(parameters.shear_modulus, parameters.poisson)
     count = find_lobes(table, side, axle, work)
+    if parameters.normal == ENERGY:
+        return load_patches(table, side, count, axle, material, work, patches)
     _fill_own_zones(table, side, lobes, count, axle)
     normal = int(parameters.normal)
     virtual = normal == VIRTUAL_PENETRATION
@@ -331,5 +335,6 @@ def side_patches(table, hand, axle, parameters, work, patches):
         patch.energy = 0.4 * force * depth + 0.1 * separation * share.own.force * lobe.sunk
         # A share of a merged patch has its share of the ellipse: this is the merged patch's.
         patch.peak_pressure = 1.5 * force / (math.pi * a * b)
+        patch.twist = 0.0
         kept += 1
     return kept

@@ -87,6 +87,7 @@ def _fill_patch(table, side, strips, sums, axle, patch):
     patch.normal[2] = nz
     patch.peak_pressure = sums[PEAK]
     patch.energy = sums[ENERGY]
+    patch.twist = 0.0
 
 
 @compiled(fastmath=AS_REAL_NUMBERS)

@@ -151,6 +151,25 @@ def contact_forces(
     return read_result(result)
 
 
+def contact_energy(
+    wheelset: Wheelset,
+    track: Track,
+    pose: Sequence[float],
+    shear_modulus: float = Contact.shear_modulus,
+    poisson: float = Contact.poisson,
+) -> float:
+    """Return the elastic energy [J] that the rails store in a pose, by the normal model "energy".
+
+    pose, shear_modulus [Pa], poisson: as in `contact_forces`, whose normal forces with
+    normal="energy" are minus the gradient of this energy. Source: contact/energy.py.
+    """
+    forces = contact_forces(
+        wheelset, track, pose, (0.0,) * 6, normal="energy", friction=0.0,
+        shear_modulus=shear_modulus, poisson=poisson,
+    )  # fmt: skip
+    return sum(patch.energy for patch in (*forces.left, *forces.right))
+
+
 def read_result(result: np.ndarray) -> ContactForces:
     """Turn the kernel's result array into named forces and patches."""
     record = result.view(kernel.RESULT)[0]
