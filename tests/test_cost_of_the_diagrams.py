@@ -18,7 +18,7 @@ from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_referenc
 
 MODELS = Path(__file__).parents[1] / "models"
 BOGIE = {"right_hand_sides": 60_677, "jacobians": 8_480, "newton_steps": 273}
-S1002 = {"right_hand_sides": 211_000, "jacobians": 11_700, "newton_steps": 671}
+S1002 = {"right_hand_sides": 76_800, "jacobians": 11_500, "newton_steps": 634}
 
 
 def load(name):

@@ -219,6 +219,11 @@ class WheelRailContact:
         self.parameters.view(kernel.PARAMETERS)["rail_speed"] = self.rail_speed
         self.forget()
 
+    @property
+    def arrays(self) -> tuple[np.ndarray, np.ndarray]:
+        """Table and state that `body_wrench` works on; they stay where they are."""
+        return self.table, self._state
+
     def forget(self) -> None:
         """Drop the kept evaluation, after a parameter has changed."""
         self._memory[0] = np.nan

@@ -201,7 +201,7 @@ class ExudynSystem(DynamicSystem):
 
     def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
         """Contact patches with their creep laws at a state, by wheelset and wheel."""
-        self.derivative(state, speed)
+        ExudynSystem.derivative(self, state, speed)
         return tuple(patch for items in self.wheelsets for patch in patches_of(self.mbs, items))
 
     def expand(self, state: Array) -> tuple[Array, Array]:

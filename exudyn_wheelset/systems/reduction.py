@@ -142,17 +142,32 @@ def state_rate(
     inverse_mass  (nq, nq) inverse of the mass matrix
     """
     size = position_of.shape[0]
-    first_order = force.shape[0] - size
+    accelerations = force.copy()
+    for i in range(size):
+        acceleration = 0.0
+        for j in range(size):
+            acceleration += inverse_mass[i, j] * force[j]
+        accelerations[i] = acceleration
+    rate_of_state(state, accelerations, position_of, rotations, rate)
+
+
+@compiled
+def rate_of_state(
+    state: Array, accelerations: Array, position_of: Array, rotations: Array, rate: Array
+) -> None:
+    """Rate of a state from the accelerations, written in place.
+
+    accelerations (nq + n1) of the nq second-order coordinates, as the multibody code has them, then
+    the rates of the n1 first-order ones.
+    """
+    size = position_of.shape[0]
+    first_order = accelerations.shape[0] - size
     first_velocity = state.shape[0] - size - first_order
     for i in range(size):
         if position_of[i] >= 0:
             rate[position_of[i]] = state[first_velocity + i]
-        acceleration = 0.0
-        for j in range(size):
-            acceleration += inverse_mass[i, j] * force[j]
-        rate[first_velocity + i] = acceleration
-    for i in range(first_order):
-        rate[first_velocity + size + i] = force[size + i]
+    for i in range(accelerations.shape[0]):
+        rate[first_velocity + i] = accelerations[i]
     for k in range(rotations.shape[0]):
         start, yaw_index, spins = rotations[k, 0], rotations[k, 1], rotations[k, 2]
         roll = state[yaw_index + 1]

@@ -7,10 +7,13 @@ from itertools import pairwise
 from typing import Any
 
 import exudyn as exu
+import numpy as np
 
 from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.systems.compiled_vehicle import CompiledVehicle
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.system import Array
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP
@@ -23,9 +26,53 @@ SHORTEST_STEP = 5.0e-6
 
 
 class VehicleSystem(ExudynSystem):
-    """The system of a vehicle, with the item numbers of its parts by name."""
+    """The system of a vehicle, with the item numbers of its parts by name.
+
+    Rates and Jacobians come from the compiled equations (`vehicle_kernel`), motion from Exudyn's
+    solver. Elements that add Exudyn items of their own are known to Exudyn alone, which then
+    computes everything.
+    """
 
     vehicle_items: VehicleItems
+    compiled: CompiledVehicle | None = None
+
+    def compile(self, vehicle: Vehicle, items: VehicleItems) -> None:
+        """Let rates and Jacobians come from the compiled equations where they know all forces."""
+        self.vehicle_items = items
+        if not items.connections:
+            self.compiled = CompiledVehicle(vehicle, items, self.layout, self.scales)
+
+    def derivative(self, state: Array, speed: float) -> Array:
+        """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,)."""
+        if self.compiled is None:
+            return super().derivative(state, speed)
+        self._place(speed)
+        return self.compiled.rate(state)
+
+    def derivatives(self, states: Array, speed: float) -> Array:
+        """Rates of change (m, n) of m states (m, n)."""
+        if self.compiled is None:
+            return super().derivatives(states, speed)
+        self._place(speed)
+        return self.compiled.rates(states)
+
+    def jacobian(self, state: Array, speed: float) -> Array:
+        """Jacobian (n, n) at a state (n,)."""
+        if self.compiled is None:
+            return super().jacobian(state, speed)
+        return self.jacobians(np.array([state], dtype=float), speed)[0]
+
+    def jacobians(self, states: Array, speed: float) -> Array:
+        """Jacobians (m, n, n) at m states (m, n)."""
+        if self.compiled is None:
+            return super().jacobians(states, speed)
+        self._place(speed)
+        return self.compiled.jacobians(states)
+
+    def _place(self, speed: float) -> None:
+        self.use_speed(speed)
+        assert self.compiled is not None
+        self.compiled.use_speed(speed)
 
 
 def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
@@ -43,7 +90,7 @@ def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
     options.setdefault("name", vehicle.name)
     options.setdefault("parameters", numbers_of(vehicle))
     system = VehicleSystem(mbs, container, **options)
-    system.vehicle_items = items
+    system.compile(vehicle, items)
     return system
 
 

@@ -136,13 +136,27 @@ class BodyItems:
 
 
 @dataclass(frozen=True)
+class Drawbar:
+    """What keeps a driven or braked vehicle at its speed.
+
+    part: number of the pulled part; pull [N]; stiffness [N/m] and damping [N s/m] along the track.
+    """
+
+    part: int
+    pull: float
+    stiffness: float
+    damping: float
+
+
+@dataclass(frozen=True)
 class VehicleItems:
     """Item numbers of a vehicle in an Exudyn system, by the names of its parts.
 
     bodies; wheelsets; connections: what elements that add items of their own have returned;
     connector: object with all other connections (None without any), connectors: what is behind
     it; states: object of first-order coordinates, or None; name: of the vehicle in this system;
-    radii: rolling radius V/spin [m] of each wheelset, by node.
+    radii: rolling radius V/spin [m] of each wheelset, by node; drawbar: None where nothing has to
+    be pulled.
     """
 
     name: str
@@ -153,6 +167,7 @@ class VehicleItems:
     connectors: Connectors
     states: int | None
     radii: Mapping[int, float]
+    drawbar: Drawbar | None = None
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -230,7 +245,7 @@ def add_vehicle(
         )
         bodies[body.name] = BodyItems(int(created["nodeNumber"]), int(created["bodyNumber"]))
         _put_at_rest(mbs, bodies[body.name].node, rest.pose[k], None)
-    _pull(mbs, rest, vehicle, [*wheelsets.values(), *bodies.values()], name)
+    drawbar = _pull(mbs, rest, vehicle, [*wheelsets.values(), *bodies.values()], name)
     parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
     connections = _own_items(mbs, rest, [*parts, ground], shift, len(wheelsets))
@@ -247,6 +262,7 @@ def add_vehicle(
         connectors,
         states,
         frozen(radii),
+        drawbar,
     )
 
 
@@ -302,14 +318,16 @@ def _compiled_items(
     return connectors, int(connector), int(number_of_object)
 
 
-def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -> None:
+def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -> Drawbar | None:
     """Let a vehicle whose wheels drive or brake keep its speed.
 
     Beside the pull a soft drawbar to what moves along: the pull at another speed differs a little.
     """
     if rest.pull == 0.0:
-        return
-    items = parts[heaviest_part(vehicle)]
+        return None
+    part = heaviest_part(vehicle)
+    bar = Drawbar(part, rest.pull, vehicle.mass * _DRAWBAR**2, 2.0 * vehicle.mass * _DRAWBAR)
+    items = parts[part]
     marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} pulled", bodyNumber=items.body))
     ahead = mbs.AddMarker(
         MarkerBodyRigid(
@@ -322,13 +340,14 @@ def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -
         ObjectConnectorCartesianSpringDamper(
             name=f"{name} drawbar",
             markerNumbers=[ahead, marker],
-            stiffness=[vehicle.mass * _DRAWBAR**2, 0.0, 0.0],
-            damping=[2.0 * vehicle.mass * _DRAWBAR, 0.0, 0.0],
+            stiffness=[bar.stiffness, 0.0, 0.0],
+            damping=[bar.damping, 0.0, 0.0],
         )
     )
     mbs.AddLoad(
-        LoadForceVector(name=f"{name} pull", markerNumber=marker, loadVector=[rest.pull, 0.0, 0.0])
+        LoadForceVector(name=f"{name} pull", markerNumber=marker, loadVector=[bar.pull, 0.0, 0.0])
     )
+    return bar
 
 
 def _own_items(mbs: Any, rest: Rest, parts: list[Any], shift: Array, axles: int) -> dict[str, Any]:

@@ -16,13 +16,17 @@ from exudyn_wheelset.coupling.registration import WheelsetItems
 
 # Time step [s] of RK44 for a driven axle: the drive's rate of some 8e3 1/s is beyond 5e-4 s.
 DRIVEN_STEP = 1.0e-4
+# Of the drive about the axle [N m s/rad]: a creep force of 10 kN on the rim changes the spin by
+# 4 mrad/s.
+DRIVE_DAMPING = 1.0e6
 
 
-def create_spin_drive(mbs: Any, items: WheelsetItems, radius: float, damping: float = 1.0e6) -> int:
+def create_spin_drive(
+    mbs: Any, items: WheelsetItems, radius: float, damping: float = DRIVE_DAMPING
+) -> int:
     """Hold the spin of a wheelset at (speed of its moving frame)/radius; return the load number.
 
-    radius r0 [m]; damping [N m s/rad] of the drive about the axle, body axes: with 1e6 a creep
-    force of 10 kN on the rim changes the spin by 4 mrad/s.
+    radius r0 [m]; damping [N m s/rad] of the drive about the axle, body axes.
     """
     contact = items.contact
 

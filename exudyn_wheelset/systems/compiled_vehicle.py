@@ -1,0 +1,148 @@
+"""The compiled equations of a vehicle that stands alone in an Exudyn model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.coupling.addresses import address_of
+from exudyn_wheelset.systems import vehicle_kernel as kernel
+from exudyn_wheelset.systems.exudyn_layout import Layout
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP
+from exudyn_wheelset.vehicles import layout as places
+from exudyn_wheelset.vehicles.assemble import VehicleItems
+from exudyn_wheelset.vehicles.description import Vehicle
+from exudyn_wheelset.vehicles.spin_drive import DRIVE_DAMPING
+
+
+class CompiledVehicle:
+    """Rates and Jacobians of a vehicle as `vehicle_kernel` computes them.
+
+    It works on the arrays of the contacts and connections in the Exudyn model itself, so that
+    what is changed there (a speed, a parameter) is changed here.
+    """
+
+    def __init__(
+        self, vehicle: Vehicle, items: VehicleItems, states: Layout, scales: Array
+    ) -> None:
+        count = len(states.rotations)
+        size = len(states.position_of)
+        strokes = len(states.names) - states.positions - size
+        block = items.connectors.block
+        self._speed = np.zeros(1)
+        bodies, inverse_masses = _bodies(vehicle, items)
+        contacts = np.zeros((len(items.contacts), kernel.CONTACT_ROW), dtype=np.int64)
+        blocks = [*(_laws_on(block, body) for body in range(count)), block]
+        self._kept: list[Any] = [items, blocks]
+        for row, contact in zip(contacts, items.contacts, strict=True):
+            table, state = contact.arrays
+            row[:] = address_of(table), len(table), address_of(state), len(state)
+        arrays = [
+            np.zeros(size),
+            np.zeros(size),
+            np.zeros(strokes),
+            np.zeros(size + strokes),
+            np.ascontiguousarray(states.position_of, dtype=np.int64),
+            np.ascontiguousarray(states.rotations, dtype=np.int64),
+            np.ascontiguousarray(states.reference, dtype=float),
+            inverse_masses,
+            bodies,
+            contacts,
+            np.array([(address_of(one), len(one)) for one in blocks], dtype=np.int64),
+            _owners(states, block, count),
+            np.array(scales, dtype=float),
+            self._speed,
+        ]
+        self._kept += arrays
+        sizes = [len(states.names), size, strokes, count, len(contacts)]
+        self._plan = np.array([*sizes, *map(address_of, arrays)], dtype=np.int64)
+        self._address = address_of(self._plan)
+        self._state, self._rate = np.zeros(sizes[0]), np.zeros(sizes[0])
+        self._ends = address_of(self._state), address_of(self._rate)
+
+    def use_speed(self, speed: float) -> None:
+        """Take over a forward speed [m/s] that the contacts have already."""
+        self._speed[0] = speed
+
+    def rate(self, state: Array) -> Array:
+        """Rate (n,) of a state (n,)."""
+        self._state[:] = state
+        kernel.rate_at(self._address, *self._ends)
+        return self._rate.copy()
+
+    def rates(self, states: Array) -> Array:
+        """Rates (m, n) of states (m, n)."""
+        states = np.ascontiguousarray(states, dtype=float)
+        rates = np.empty_like(states)
+        kernel.rates_at(self._address, states, rates)
+        return rates
+
+    def jacobians(self, states: Array) -> Array:
+        """Jacobians (m, n, n) at states (m, n), by central differences of the bodies' own laws."""
+        states = np.ascontiguousarray(states, dtype=float)
+        matrices = np.empty((*states.shape, states.shape[1]))
+        kernel.jacobians_at(self._address, states, DIFFERENCE_STEP, matrices)
+        return matrices
+
+
+def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
+    """Rows (nb, BODY_ROW) of the bodies, and the inverse masses (6 nb)."""
+    count = len(vehicle.parts)
+    rows = np.zeros((count, kernel.BODY_ROW))
+    inverse = np.empty(6 * count)
+    for k, part in enumerate(vehicle.parts):
+        body: Any = getattr(part, "wheelset", part)
+        rows[k, kernel.WEIGHT] = body.mass * vehicle.gravity
+        rows[k, kernel.INERTIA : kernel.INERTIA + 3] = body.inertia
+        inverse[6 * k : 6 * k + 6] = 1.0 / np.array([*3 * [body.mass], *body.inertia])
+    for k, axle in enumerate(vehicle.wheelsets):
+        if axle.driven:
+            rows[k, kernel.DRIVE] = DRIVE_DAMPING
+            rows[k, kernel.DRIVE_RADIUS] = axle.wheelset.radius
+    if items.drawbar is not None:
+        bar = items.drawbar
+        row = rows[bar.part]
+        row[kernel.PULL] = bar.pull
+        row[kernel.DRAWBAR_STIFFNESS], row[kernel.DRAWBAR_DAMPING] = bar.stiffness, bar.damping
+    return rows, inverse
+
+
+def _law_rows(block: Array) -> Array:
+    """The block's rows of laws (m, ROW), a view."""
+    start, laws = int(block[places.H_LAW_ROWS]), int(block[places.H_LAWS])
+    return block[start : start + laws * places.ROW].reshape(laws, places.ROW)
+
+
+def _laws_on(block: Array, body: int) -> Array:
+    """A block with the laws that end on a body alone."""
+    own = block.copy()
+    rows = _law_rows(block)
+    chosen = rows[(rows[:, places.LOWER] == body) | (rows[:, places.UPPER] == body)]
+    own[places.H_LAWS] = len(chosen)
+    start = int(block[places.H_LAW_ROWS])
+    own[start : start + chosen.size] = chosen.ravel()
+    places.forget(own)
+    return own
+
+
+def _owners(states: Layout, block: Array, count: int) -> Array:
+    """Body whose laws feel each state (n)."""
+    owners = np.zeros(len(states.names), dtype=np.int64)
+    body_of = np.zeros(len(states.position_of), dtype=np.int64)
+    for body, (start, yaw, spins) in enumerate(states.rotations):
+        first = start - 3
+        body_of[first : first + 6] = body
+        owners[yaw : yaw + 3 - spins] = body
+    for coordinate, position in enumerate(states.position_of):
+        if position >= 0:
+            owners[position] = body_of[coordinate]
+    end = states.positions + len(body_of)
+    owners[states.positions : end] = body_of
+    for row in _law_rows(block):
+        if row[places.STATE] >= 0:
+            ends = [int(row[places.LOWER]), int(row[places.UPPER])]
+            owners[end + int(row[places.STATE])] = min(ends)
+    assert np.all(owners < count)
+    return owners

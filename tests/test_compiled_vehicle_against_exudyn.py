@@ -1,0 +1,102 @@
+"""A vehicle's compiled equations are Exudyn's: rates to rounding, Jacobians to differences.
+
+Both work on one vehicle: Exudyn's own right-hand side (all loads and objects of the model) against
+the compiled one, at states of millimetres, milliradians and centimetres per second beside rest.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from exudyn_wheelset import Contact, catalogue
+from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.system import DynamicSystem, as_system
+
+NAMES = ("cooperrider_bogie_3d", "three_axle_truck", "dtu_car", "manchester_coach")
+
+
+def driven_truck():
+    """A three-axle truck whose last axle is driven: a drive and a drawbar come in."""
+    truck = catalogue.three_axle_truck()
+    axles = list(truck.wheelsets)
+    axles[-1] = replace(axles[-1], driven=True)
+    return replace(truck, wheelsets=tuple(axles))
+
+
+VEHICLES = {name: lambda name=name: catalogue.vehicle(name) for name in NAMES}
+VEHICLES |= {
+    "driven truck": driven_truck,
+    "own law of the truck": lambda: replace(
+        catalogue.vehicle("three_axle_truck"), contact=Contact(creep="fastsim", friction=0.3)
+    ),
+}
+
+
+@pytest.fixture(scope="module", params=sorted(VEHICLES))
+def system(request):
+    found = as_system(VEHICLES[request.param]())
+    assert found.compiled is not None
+    return found
+
+
+def states_near_rest(system, speed):
+    random = np.random.default_rng(3)
+    start = system.initial_state(speed)
+    return [start + 0.5 * system.scales * random.standard_normal(system.size) for _ in range(3)]
+
+
+@pytest.mark.parametrize("speed", [15.0, 40.0])
+def test_rates_are_those_of_exudyn(system, speed):
+    """The same functions on the same numbers: 1e-12 leaves the order of the sums."""
+    states = states_near_rest(system, speed)
+    for state, row in zip(states, system.derivatives(np.array(states), speed), strict=True):
+        exudyn = ExudynSystem.derivative(system, state, speed)
+        ours = system.derivative(state, speed)
+        np.testing.assert_array_equal(ours, row)
+        np.testing.assert_allclose(ours, exudyn, rtol=1e-12, atol=1e-12 * np.abs(exudyn).max())
+
+
+def test_jacobian_of_the_bodies_is_that_of_the_whole(system):
+    """The dense differences of Exudyn's rates have the same steps: only rounding is left.
+
+    A rate of 1e5 scales/s has a rounding of 1e-11, over the step of 6e-6 that is 1e-6 of it; the
+    dense columns subtract it from the forces of all other bodies, so 1e-6 of the largest entry.
+    """
+    speed = 30.0
+    state = states_near_rest(system, speed)[0]
+    dense = np.empty((system.size, system.size))
+    scales = system.scales
+    for column in range(system.size):
+        shift = np.zeros(system.size)
+        shift[column] = 6.0e-6 * scales[column]
+        upper = ExudynSystem.derivative(system, state + shift, speed)
+        dense[:, column] = (upper - ExudynSystem.derivative(system, state - shift, speed)) / (
+            2.0 * shift[column]
+        )
+    difference = (system.jacobian(state, speed) - dense) * scales[None, :] / scales[:, None]
+    whole = dense * scales[None, :] / scales[:, None]
+    assert np.abs(difference).max() < 1e-6 * np.abs(whole).max()
+    general = DynamicSystem.jacobian(system, state, speed)
+    np.testing.assert_allclose(
+        system.jacobians(np.array([state]), speed)[0] * scales / scales[:, None],
+        general * scales / scales[:, None],
+        atol=1e-9 * np.abs(whole).max(),
+    )
+
+
+def test_an_element_that_adds_its_own_items_is_left_to_exudyn():
+    """Nothing of it is known to the compiled equations, so they are not used."""
+
+    class Own:
+        def __init__(self, element):
+            self.places = element.places
+            self.static_stiffness = element.static_stiffness
+
+        def create(self, mbs, ends, preload):
+            return ()
+
+    truck = catalogue.three_axle_truck()
+    first, *others = truck.connections
+    changed = replace(truck, connections=(replace(first, element=Own(first.element)), *others))
+    assert as_system(changed).compiled is None
