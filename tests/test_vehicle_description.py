@@ -150,7 +150,7 @@ def test_a_wheelset_off_the_track_is_refused():
         (lambda: Spring(stiffness="stiff"), "stiffness = 'stiff'"),
         (lambda: Spring(stiffness=(1e6, 1e6)), "give three"),
         (lambda: Spring(stiffness=np.diag([1e6] * 5 + [-1.0])), "eigenvalue -1"),
-        (lambda: Bushing(stiffness=(1e6, 1e6, 1e6)), "give six"),
+        (lambda: Bushing(stiffness=(1e6, 1e6)), "give three"),
         (lambda: MaxwellDamper((0, 0, 0), 1e6, 4e3), "vector of some length"),
         (lambda: MaxwellDamper((0, 0, 1), 0.0, 4e3), "stiffness = 0.0 N/m: give a positive"),
         (lambda: Damper((0, 1, 0)), "give damping"),

@@ -54,6 +54,8 @@ def given_preloads(vehicle: Vehicle, struts: list[Strut]) -> Array:
         if strut.connection.preload is not None:
             shares = sum(other.connection is strut.connection for other in struts)
             given[k, :3] = np.array(strut.connection.preload) / shares
+        elif strut.known is not None:
+            given[k, :3] = strut.known
         elif vehicle.preload == "free":
             given[k, :3] = strut.stiffness[:3, :3] @ strut.connection.offset
     return given
@@ -68,7 +70,7 @@ def balance(
     """
     count = len(centres)
     levers = [strut.lever(centres) for strut in struts]
-    is_given = [strut.connection.preload is not None for strut in struts]
+    is_given = [strut.known is not None for strut in struts]
     stiffness = np.zeros((6 * count, 6 * count))
     loads = weights(vehicle, centres).ravel()
     for lever, strut, preload, known in zip(levers, struts, given, is_given, strict=True):

@@ -41,6 +41,7 @@ from exudyn_wheelset.vehicles.frames import (
     turn,
     turn_back,
 )
+from exudyn_wheelset.vehicles.friction_kernel import friction_law
 from exudyn_wheelset.vehicles.layout import (
     AXES,
     BLOW_OFF,
@@ -52,6 +53,7 @@ from exudyn_wheelset.vehicles.layout import (
     F_TAN,
     FIRST,
     FRAME,
+    FRICTION,
     H_BODIES,
     H_BODY_ROWS,
     H_ENERGY,
@@ -259,15 +261,23 @@ def connection_forces(q, v, states, block):
             )
             strain = (dx, dy, dz, theta[0] - row[19], theta[1] - row[20], theta[2] - row[21])
             speeds = (ex, ey, ez, sx, sy, sz)
-            matrices = pool_start + int(row[POOL])
-            for i in range(6):
-                g[i] = 0.0
-                drag[i] = 0.0
-                for j in range(6):
-                    g[i] += block[matrices + 6 * i + j] * strain[j]
-                    drag[i] += block[matrices + 36 + 6 * i + j] * speeds[j]
-                energy += 0.5 * g[i] * strain[i]
-                power += drag[i] * speeds[i]
+            data = pool_start + int(row[POOL])
+            if kind == FRICTION:
+                own = int(row[STATE])
+                stored, taken = friction_law(
+                    block, data, strain, speeds, states, first_state + own, rates, own, g, drag
+                )
+                energy += stored
+                power += taken
+            else:
+                for i in range(6):
+                    g[i] = 0.0
+                    drag[i] = 0.0
+                    for j in range(6):
+                        g[i] += block[data + 6 * i + j] * strain[j]
+                        drag[i] += block[data + 36 + 6 * i + j] * speeds[j]
+                    energy += 0.5 * g[i] * strain[i]
+                    power += drag[i] * speeds[i]
             for i in range(3):
                 energy -= row[13 + i] * strain[3 + i]
                 g[3 + i] -= row[13 + i]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 # Kinds of laws.
-SPRING, MATRIX, DIRECTED, ROD = 0, 1, 2, 3
+SPRING, MATRIX, DIRECTED, ROD, FRICTION = 0, 1, 2, 3, 4
 # Whose axes a connection has.
 OF_LOWER, OF_UPPER, OF_MIDDLE, OF_TRACK = 0, 1, 2, 3
 

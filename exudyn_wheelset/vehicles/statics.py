@@ -62,7 +62,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     for strut, drawn in zip(rest.struts, rest.preloads, strict=True):
         name = strut.connection.name
         force = drawn.copy()
-        if strut.connection.preload is None or vehicle.preload == "free":
+        if strut.known is None or vehicle.preload == "free":
             force -= strut.stiffness @ strut.lever(rest.centres) @ moved
         preloads[name] = preloads.get(name, np.zeros(6)) + force
     places = rest.centres + rest.pose[:, :3]
@@ -98,7 +98,7 @@ def with_free_lengths(vehicle: Vehicle) -> Vehicle:
     rest = find_rest(vehicle)
     offsets: dict[str, Array] = {}
     for strut, preload in zip(rest.struts, rest.preloads, strict=True):
-        if strut.connection.preload is None and strut.stiffness[:3, :3].any():
+        if strut.known is None and strut.stiffness[:3, :3].any():
             offset = np.linalg.lstsq(strut.stiffness[:3, :3], preload[:3], rcond=1e-12)[0]
             offsets[strut.connection.name] = offset
     connections = tuple(

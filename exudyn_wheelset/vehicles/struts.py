@@ -18,6 +18,7 @@ from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.description import GROUND, Axle, Connection, Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import Law
 from exudyn_wheelset.vehicles.frames import place_frames, rotation_between
+from exudyn_wheelset.vehicles.friction_kernel import monotone_hold
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,16 @@ class Strut:
             place[:3, 3:] -= sign * cross_matrix(arm)
             place[3:, 3:] += sign * np.eye(3)
         return matrix[:, : 6 * count]
+
+    @property
+    def known(self) -> Array | None:
+        """Force (3) [N] on the upper body in the drawing where it is given: by the connection, or
+        by the law itself, which knows its load.
+        """
+        if self.connection.preload is not None:
+            return np.array(self.connection.preload)
+        load = None if self.law is None else self.law.load
+        return None if load is None else np.array([0.0, 0.0, load])
 
     def moved(self, shift: Array) -> Strut:
         """The strut of a vehicle that is put elsewhere by `shift` (3) [m]."""
@@ -155,17 +166,22 @@ def block_of(
         theta = np.zeros(3)
         rotation_between(turned[0].ravel(), turned[1].ravel(), theta)
         row[layout.REFERENCE][3:] = theta
+        parts: list[tuple[int, Array]] = []
+        turning = own.T @ preload[3:]
         row[layout.FORCE] = preload[:3]
-        row[layout.MOMENT] = own.T @ preload[3:]
+        if law.friction is not None:
+            left = np.concatenate([own.T @ preload[:3], turning])
+            parts.append((layout.POOL, law.friction.pool(left)))
+            row[layout.FORCE], turning = own @ left[:3], left[3:]
+        row[layout.MOMENT] = turning
         row[layout.STIFFNESS], row[layout.DAMPING] = law.stiffness, law.damping
         row[layout.DIRECTION] = law.direction
         if law.kind == layout.ROD:
             row[layout.LENGTH] = np.linalg.norm(line)
             row[layout.TENSION] = -preload[:3] @ line / row[layout.LENGTH]
-        if law.state is not None:
+        if law.states:
             row[layout.STATE] = len(states)
-            states.append((strut.connection.name, law.state))
-        parts: list[tuple[int, Array]] = []
+            states += [(strut.connection.name, state) for state in law.states]
         if law.matrices is not None:
             both = np.concatenate([matrix.ravel() for matrix in law.matrices])
             parts.append((layout.POOL, both))
@@ -183,7 +199,11 @@ def block_of(
 
 
 def strokes_at(block: Array, pose: Array) -> Array:
-    """Strokes (k,) [m] at which no damper in series pulls, in a pose (6 n) that lasts."""
+    """First-order coordinates (k,) in a pose (6 n) that lasts.
+
+    Strokes [m] at which no damper in series pulls, holds of friction after a straight way from the
+    drawing, where they are relaxed.
+    """
     count, laws = int(block[layout.H_BODIES]), int(block[layout.H_LAWS])
     start = int(block[layout.H_BODY_ROWS])
     bodies = block[start : start + count * layout.BODY].reshape(count, layout.BODY)
@@ -207,5 +227,12 @@ def strokes_at(block: Array, pose: Array) -> Array:
         if row[layout.AXES] == layout.OF_TRACK:
             own = np.eye(3)
         along = own.T @ (ends[1] - ends[0]) - row[layout.REFERENCE][:3]
+        if row[layout.KIND] == layout.FRICTION:
+            theta = np.zeros(3)
+            rotation_between(turned[0].ravel(), turned[1].ravel(), theta)
+            strain = np.concatenate([along, theta - row[layout.REFERENCE][3:]])
+            data = int(block[layout.H_POOL]) + int(row[layout.POOL])
+            monotone_hold(block, data, strain, strokes, int(row[layout.STATE]))
+            continue
         strokes[int(row[layout.STATE])] = along @ row[layout.DIRECTION]
     return strokes

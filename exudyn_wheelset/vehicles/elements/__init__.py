@@ -4,9 +4,16 @@ from exudyn_wheelset.vehicles.elements.air_spring import AirSpring
 from exudyn_wheelset.vehicles.elements.anti_roll_bar import AntiRollBar
 from exudyn_wheelset.vehicles.elements.axle_box import AxleBox
 from exudyn_wheelset.vehicles.elements.bump_stop import BumpStop
+from exudyn_wheelset.vehicles.elements.centre_plate import CentrePlate
+from exudyn_wheelset.vehicles.elements.coil_nest import CoilNest
 from exudyn_wheelset.vehicles.elements.coil_spring import CoilSpring
 from exudyn_wheelset.vehicles.elements.damper import Damper, MaxwellDamper
+from exudyn_wheelset.vehicles.elements.friction_damper import FrictionDamper
+from exudyn_wheelset.vehicles.elements.friction_wedge import FrictionWedge
+from exudyn_wheelset.vehicles.elements.leaf_spring import LeafSpring
+from exudyn_wheelset.vehicles.elements.link_suspension import LinkSuspension
 from exudyn_wheelset.vehicles.elements.protocol import Element, End, Law
+from exudyn_wheelset.vehicles.elements.side_bearer import SideBearer
 from exudyn_wheelset.vehicles.elements.spring import Bushing, Spring
 from exudyn_wheelset.vehicles.elements.traction_rod import TractionRod
 
@@ -16,12 +23,19 @@ __all__ = [
     "AxleBox",
     "BumpStop",
     "Bushing",
+    "CentrePlate",
+    "CoilNest",
     "CoilSpring",
     "Damper",
     "Element",
     "End",
+    "FrictionDamper",
+    "FrictionWedge",
     "Law",
+    "LeafSpring",
+    "LinkSuspension",
     "MaxwellDamper",
+    "SideBearer",
     "Spring",
     "TractionRod",
 ]

@@ -33,6 +33,7 @@ from exudyn_wheelset.coupling.registration import FirstOrderState
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import Curve
+from exudyn_wheelset.vehicles.elements.friction import Friction
 
 Vector = tuple[float, float, float]
 # Below it a spring of a railway vehicle is not to be expected [N/m]; 1 kN/mm is 1e6 N/m.
@@ -63,8 +64,9 @@ class Law:
 
     kind: of layout.SPRING (stiffness, damping along three axes), MATRIX (6 x 6), DIRECTED (along
     `direction`, with a stop over displacement and a blow-off table, in series with a spring if
-    `state` is given) or ROD (along the line of its ends). shift (3) [m]: of both ends from the
-    element's places. middle: axes half way between both bodies.
+    `state` is given), ROD (along the line of its ends) or FRICTION (friction_kernel.py, what
+    `friction` says). shift (3) [m]: of both ends from the element's places. middle: axes half way
+    between both bodies.
     """
 
     kind: int
@@ -75,11 +77,26 @@ class Law:
     stop: Curve | None = None
     blow_off: Curve | None = None
     state: FirstOrderState | None = None
+    friction: Friction | None = None
     shift: Vector = (0.0, 0.0, 0.0)
     middle: bool = False
 
+    @property
+    def states(self) -> tuple[FirstOrderState, ...]:
+        """First-order coordinates."""
+        if self.friction is not None:
+            return self.friction.states
+        return () if self.state is None else (self.state,)
+
+    @property
+    def load(self) -> float | None:
+        """Vertical force [N] on the upper body in the drawing, where the law knows it itself."""
+        return None if self.friction is None else self.friction.load
+
     def static_stiffness(self, line: np.ndarray) -> np.ndarray:
         """(6, 6) against loads that stay; line (3): unit vector from the lower to the upper end."""
+        if self.friction is not None:
+            return self.friction.static_stiffness()
         matrix = np.zeros((6, 6))
         if self.kind == layout.SPRING:
             matrix[:3, :3] = np.diag(self.stiffness)

@@ -55,15 +55,11 @@ class Spring(Element):
 
 @dataclass(frozen=True)
 class Bushing(Spring):
-    """A rubber bushing: six stiffnesses (x, y, z) [N/m] and about x, y, z [N m/rad], or (6, 6)."""
+    """A rubber bushing: stiffness and damping in the forms of a Spring.
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if len(self.stiffness) != 6:
-            raise WheelsetError(
-                f"Bushing: stiffness = {self.stiffness}: give six numbers, along and about x, y, "
-                "z, or a (6, 6) matrix"
-            )
+    Three numbers (x, y, z) [N/m] for one that turns freely, six with those about x, y, z [N m/rad],
+    or (6, 6).
+    """
 
 
 def _checked(what: str, values: Any, check: Any) -> Any:

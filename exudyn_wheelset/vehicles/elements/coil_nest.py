@@ -1,0 +1,57 @@
+"""A nest of coils with its friction wedges: the suspension of one side of a three-piece truck.
+
+The coils are a Spring in the middle, the wedges stand before and behind them, half of `spacing`
+away (friction_wedge.py): so a bolster that turns in the side frame (warp) rubs on both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.vehicles import layout
+from exudyn_wheelset.vehicles.elements.friction_wedge import FrictionWedge
+from exudyn_wheelset.vehicles.elements.protocol import (
+    Element,
+    Law,
+    Vector,
+    checked_damping,
+    checked_stiffness,
+)
+
+
+@dataclass(frozen=True)
+class CoilNest(Element):
+    """Coils between side frame (lower) and bolster (upper), with a wedge at either end.
+
+    stiffness (x, y, z) [N/m], damping (x, y, z) [N s/m] of the coils; wedge: each of the two;
+    spacing [m]: of the wedges along the track.
+    """
+
+    stiffness: Vector
+    wedge: FrictionWedge
+    spacing: float = 0.4
+    damping: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
+            given = numbers(f"CoilNest: {what} (x, y, z)", getattr(self, what), 3, "SI")
+            named = zip("xyz", given, strict=True)
+            put(self, what, tuple(check(f"CoilNest: {what} {axis}", v) for axis, v in named))
+        if not isinstance(self.wedge, FrictionWedge):
+            raise WheelsetError(f"CoilNest: wedge = {self.wedge!r}: give a FrictionWedge")
+        put(self, "spacing", number("CoilNest: spacing", self.spacing, "m", 0.0, 2.0))
+
+    def laws(self) -> tuple[Law, ...]:
+        """The coils and two wedges."""
+        coils = Law(layout.SPRING, stiffness=self.stiffness, damping=self.damping)
+        return (
+            coils,
+            *(
+                replace(law, shift=(ahead, 0.0, 0.0))
+                for ahead in (0.5 * self.spacing, -0.5 * self.spacing)
+                for law in self.wedge.laws()
+            ),
+        )
