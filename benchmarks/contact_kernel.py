@@ -105,7 +105,7 @@ def least_us(work, calls: int) -> float:
 
 def measure() -> dict[str, float]:
     numbers: dict[str, float] = {}
-    result, at_rest = new_result(), np.zeros(8)
+    result, at_rest = new_result(), np.zeros(12)
     for name, (table, rows) in (("one patch", one_patch()), ("car", motion_of_a_car())):
         repeats = max(6000 // len(rows), 1)
         calls = repeats * len(rows)

@@ -28,7 +28,7 @@ def forces(wheelset: Wheelset, track: Track, spacing: float, y: np.ndarray) -> n
     table = tables.contact_tables(wheelset, track)
     tables.NODE_SPACING = known
     tables._contact_tables.cache_clear()
-    parameters, result, motion = contact_parameters(), layout.new_result(), np.zeros(8)
+    parameters, result, motion = contact_parameters(), layout.new_result(), np.zeros(12)
     rows = []
     for shift, z, roll in zip(y, geometry.z, geometry.roll, strict=True):
         axle = layout.Axle(shift, z - 8e-5, 0.0, np.cos(roll), np.sin(roll))

@@ -60,7 +60,7 @@ def contact_evaluation() -> dict[str, float]:
     wheelset = Wheelset(mass=1813, inertia=(1120, 112, 1120), radius=0.46, wheel="S1002")
     track = Track(rail="UIC60")
     table = contact_tables(wheelset, track)
-    parameters, result, motion = contact_parameters(), layout.new_result(), np.zeros(8)
+    parameters, result, motion = contact_parameters(), layout.new_result(), np.zeros(12)
     numbers: dict[str, float] = {}
     for name, shift in (("one_patch", 0.003), ("two_patches", 0.0)):
         pose = contact_geometry(wheelset, track, [shift])

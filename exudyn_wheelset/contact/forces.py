@@ -7,12 +7,27 @@ For each patch, in the triad (x along the track, lateral tangent, normal n from 
 - creep force by the chosen law; wrench about the wheelset's centre in the track frame.
 V is the forward speed over the rails.
 
+Rails: shape and velocity are two things. A rail of lateral and vertical shift y(s), z(s) at the
+wheelset's station has the direction t = (1, y', z')/|.| and, crooked as it may be, is at rest. All
+above is done in axes that follow it,
+    e_x = t,   e_y = (-y', 1, 0)/|.|,   e_z = e_x x e_y,
+about the point (0, y, z), where its profile stands as on straight track: positions, axle and
+velocities are turned into them, forces back. So two rails of one slope are straight track turned by
+it. The gap closes at n.v, v the velocity of the wheel's particle over the rail's material and n
+across the rail: a wheelset that runs straight ahead touches a sloping rail at a lead, where its
+particles go down as fast as the rail comes nearer, so that no rate of the shape need be told.
+Creepages are v/V in the same axes. Of a wheelset with the yaw psi in the track frame the lateral
+one is y_w'/V - psi, whatever the slope; V y' taken for a velocity of the rail would add -y'. Only
+rails that move (elastic ones, a shaker's) have velocities, along e_y and e_z.
+
 Patches and their elastic normal forces come from patches.py. With strips, FASTSIM runs over them
 (strip_creep.py); the other laws take the ellipse with their load and second moments.
 
 The right side is computed as the left side of the mirrored wheelset and mirrored back, so mirror
 symmetry holds to rounding. Records and named tuples: layout.py.
 """
+
+import math
 
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
@@ -79,38 +94,76 @@ def _patch_creep(k, patches, shares, count, parameters):
     return fx, fy, mz
 
 
+@compiled(inline="always")
+def _axes_along(slope_y, slope_z):
+    """Axes e_x, e_y, e_z (nine numbers) that follow a rail of these slopes [-]."""
+    across = 1.0 / math.sqrt(1.0 + slope_y * slope_y)
+    along = 1.0 / math.sqrt(1.0 + slope_y * slope_y + slope_z * slope_z)
+    xx, xy, xz = along, along * slope_y, along * slope_z
+    yx, yy = -across * slope_y, across
+    return xx, xy, xz, yx, yy, 0.0, -xz * yy, xz * yx, xx * yy - xy * yx
+
+
+@compiled(inline="always")
+def _into(a, x, y, z):
+    """Components in axes a (nine numbers)."""
+    return (
+        a[0] * x + a[1] * y + a[2] * z,
+        a[3] * x + a[4] * y + a[5] * z,
+        a[6] * x + a[7] * y + a[8] * z,
+    )
+
+
+@compiled(inline="always")
+def _out_of(a, x, y, z):
+    """Components in the track frame of what is given in axes a."""
+    return (
+        a[0] * x + a[3] * y + a[6] * z,
+        a[1] * x + a[4] * y + a[7] * z,
+        a[2] * x + a[5] * y + a[8] * z,
+    )
+
+
 @compiled(fastmath=AS_REAL_NUMBERS)
 def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     """Fill `result` with the wrench on the wheelset and its patches; return nothing.
 
     table: contact_tables(). axle (Axle): y, z [m] of the centre, z from `radius` above the rail
     tops, and the axle's unit vector; velocity (Velocity) of the centre over the ground and
-    angular, track frame. rail_motion (8): lateral and vertical shift of the left and the right
-    rail [m], then their rates [m/s]. parameters: contact_parameters(); result: new_result().
-    Patches on the right side come back in the right-handed triad of the track frame; positions
-    and angles count towards the field side.
+    angular, track frame. rail_motion (12): lateral and vertical shift of the left and the right
+    rail [m], their velocities if they move [m/s], their slopes [-]. parameters:
+    contact_parameters(); result: new_result().
+    Patches come back in the axes that follow their rail, on the right side too with y to the
+    left; positions and angles count towards the field side.
     """
     options = parameters.view(PARAMETERS)[0]
     out = result.view(RESULT)[0]
     shares = out.work.shares
     forward = velocity.x + options.rail_speed
-    speed = max(abs(forward), LEAST_SPEED)
     height = side_of(table, 0).radius + axle.z
     over_strips = options.normal == STRIPS and int(options.law) == _FASTSIM
     force_x = force_y = force_z = moment_x = moment_y = moment_z = 0.0
     for hand in range(2):
         mirror = 1.0 - 2.0 * hand
         patches = out.patches[hand]
-        mirrored = Axle(
-            mirror * (axle.y - rail_motion[2 * hand]), height - rail_motion[2 * hand + 1],
-            mirror * axle.lx, axle.ly, mirror * axle.lz,
-        )  # fmt: skip
+        slope_y, slope_z = rail_motion[8 + 2 * hand], rail_motion[9 + 2 * hand]
+        sloping = slope_y != 0.0 or slope_z != 0.0
+        y, z = axle.y - rail_motion[2 * hand], height - rail_motion[2 * hand + 1]
+        lx, ly, lz = axle.lx, axle.ly, axle.lz
+        vx, vy, vz = forward, velocity.y, velocity.z
+        wx, wy, wz = velocity.about_x, velocity.about_y, velocity.about_z
+        axes = _axes_along(slope_y, slope_z)
+        if sloping:
+            _, y, z = _into(axes, 0.0, y, z)
+            lx, ly, lz = _into(axes, lx, ly, lz)
+            vx, vy, vz = _into(axes, vx, vy, vz)
+            wx, wy, wz = _into(axes, wx, wy, wz)
+        mirrored = Axle(mirror * y, z, mirror * lx, ly, mirror * lz)
         count = side_patches(table, hand, mirrored, options, out.work, patches)
         out.count[hand] = count
         slip = Slip(
-            forward, mirror * velocity.y - mirror * rail_motion[4 + 2 * hand],
-            velocity.z - rail_motion[5 + 2 * hand],
-            mirror * velocity.about_x, velocity.about_y, mirror * velocity.about_z, speed,
+            vx, mirror * vy - mirror * rail_motion[4 + 2 * hand], vz - rail_motion[5 + 2 * hand],
+            mirror * wx, wy, mirror * wz, max(abs(vx), LEAST_SPEED),
         )  # fmt: skip
         for k in range(count):
             patch = patches[k]
@@ -133,16 +186,23 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             along_normal = patch.normal_force * shares[k].damping + creep.normal
             gy = nz * creep.lateral + ny * along_normal
             gz = -ny * creep.lateral + nz * along_normal
-            force_x += creep.x
-            force_y += mirror * gy
-            force_z += gz
-            moment_x += mirror * (creep.moment_x + py * gz - pz * gy)
             patch.twist *= shares[k].damping
             about = creep.moment_normal + patch.twist
             my = about * ny + creep.moment_lateral * nz
             mz = about * nz - creep.moment_lateral * ny
-            moment_y += my + (pz * creep.x - px * gz)
-            moment_z += mirror * (mz + (px * gy - py * creep.x))
+            fx, fy, fz = creep.x, mirror * gy, gz
+            mx = mirror * (creep.moment_x + py * gz - pz * gy)
+            my += pz * creep.x - px * gz
+            mz = mirror * (mz + (px * gy - py * creep.x))
+            if sloping:
+                fx, fy, fz = _out_of(axes, fx, fy, fz)
+                mx, my, mz = _out_of(axes, mx, my, mz)
+            force_x += fx
+            force_y += fy
+            force_z += fz
+            moment_x += mx
+            moment_y += my
+            moment_z += mz
             patch.fx = creep.x
             patch.fy = mirror * creep.lateral
             patch.mz = mirror * creep.moment_normal

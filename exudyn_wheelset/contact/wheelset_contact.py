@@ -117,6 +117,7 @@ def contact_forces(
     poisson: float = Contact.poisson,
     damping: float = Contact.damping,
     rail_motion: Sequence[float] | None = None,
+    rail_slope: Sequence[float] | None = None,
     contact: Contact | None = None,
     **law_parameters: float,
 ) -> ContactForces:
@@ -125,14 +126,20 @@ def contact_forces(
     pose (x, y, z, roll, pitch, yaw) [m, rad] in the track frame, z from `radius` above the plane
     of the rail tops, orientation Rz(yaw) Rx(roll) Ry(pitch); velocity (vx, vy, vz, wx, wy, wz)
     [m/s, rad/s] of the centre and angular, in track axes; rail_motion (8): lateral and vertical
-    shift [m] of the left and of the right rail, then their rates [m/s]. contact: a Contact, or its
-    numbers by keyword.
+    shift [m] of the left and of the right rail, then their velocities [m/s], of rails that really
+    move (a shaker, elastic rails): crooked rails are at rest. rail_slope (4): lateral and vertical
+    slope [-] along the track of the left and of the right rail (contact/forces.py); patches are
+    given in axes that follow it. contact: a Contact, or its numbers by keyword.
     Raises WheelsetError for numbers that are not finite, of the wrong count, or unknown names.
     """
     _, y, z, roll, _, yaw = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
     motion_of_centre = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
-    motion = np.zeros(8) if rail_motion is None else _numbers("rail_motion", rail_motion, 8)
-    check_contact_names(creep, law_parameters, ("rail_motion", "contact"))
+    motion = np.zeros(12)
+    if rail_motion is not None:
+        motion[:8] = _numbers("rail_motion", rail_motion, 8)
+    if rail_slope is not None:
+        motion[8:] = _numbers("rail_slope", rail_slope, 4)
+    check_contact_names(creep, law_parameters, ("rail_motion", "rail_slope", "contact"))
     parameters = contact_parameters(
         contact,
         normal=normal,

@@ -85,5 +85,5 @@ def check_rails(irregularity: Any, rail_elasticity: Any, station: float) -> None
     if motion.shape != (8,) or not np.all(np.isfinite(motion)):
         raise WheelsetError(
             f"irregularity at {station:g} m gives {motion.tolist()}: give eight finite numbers, "
-            "the shifts y, z of the left and of the right rail [m], then their rates [m/s]"
+            "the shifts y, z of the left and of the right rail [m], then their slopes [-]"
         )

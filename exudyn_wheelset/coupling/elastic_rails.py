@@ -70,12 +70,13 @@ def elastic_forces(
     """As `wheelset_forces`, on rails shifted by `shifts` (4) [m] against their springs.
 
     elasticity: (k_y, k_z, c_y, c_z); rates (4) [m/s]: set to those of the shifts, left y, z, right
-    y, z, from a guess. rail_motion (8): the irregularity, to which shifts and rates are added.
+    y, z, from a guess. rail_motion (12): of the track, to which shifts and rates are added.
     """
     unmoved = rail_motion
-    rail_motion = np.empty(8)
+    rail_motion = np.empty(12)
     for k in range(4):
         rail_motion[k] = unmoved[k] + shifts[k]
+        rail_motion[8 + k] = unmoved[8 + k]
     forces = np.empty(4)
     moved = np.empty((2, 4))
     for _ in range(12):

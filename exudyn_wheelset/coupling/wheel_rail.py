@@ -47,12 +47,14 @@ Irregularity = Callable[[float], Any]
 # reference position, the rails' motion, the parameters, the result.
 _MEMORY = slice(0, 12)
 _REFERENCE = slice(12, 15)
-_RAIL_MOTION = slice(15, 23)
-_ELASTICITY = slice(23, 27)
-_SHIFTS = slice(27, 31)
-_RATES = slice(31, 35)
-_PARAMETERS = slice(35, 35 + kernel.PARAMETER_COUNT)
-_RESULT = slice(35 + kernel.PARAMETER_COUNT, None)
+_RAIL_MOTION = slice(15, 27)
+_ELASTICITY = slice(27, 31)
+_SHIFTS = slice(31, 35)
+_RATES = slice(35, 39)
+_PARAMETERS = slice(39, 39 + kernel.PARAMETER_COUNT)
+_RESULT = slice(39 + kernel.PARAMETER_COUNT, None)
+# Shifts and slopes among the rails' motion.
+_SHAPE = [0, 1, 2, 3, 8, 9, 10, 11]
 
 
 @compiled(inline="always")
@@ -120,7 +122,7 @@ def body_wrench(q, v, first, table, state, part):
 def wheel_history(coordinates, velocities, first, table, state, motions, shifts, values):
     """Fill values (m, 2, 14) of both wheels at m states, in the order of WHEEL_VALUES.
 
-    coordinates, velocities (m, nq) of the system; motions (m, 8) and shifts (m, 4) of the rails.
+    coordinates, velocities (m, nq) of the system; motions (m, 12) and shifts (m, 4) of the rails.
     """
     memory, motion, shift = state[_MEMORY], state[_RAIL_MOTION], state[_SHIFTS]
     for row in range(len(coordinates)):
@@ -178,7 +180,8 @@ class WheelRailContact:
 
     wheelset, track: descriptions; parameters: array of `contact_parameters`; rail_speed [m/s]:
     speed of the moving frame the model stands in, 0 for a model that runs over the ground;
-    irregularity: function of the station [m] that returns the rail motion (8), or None;
+    irregularity: function of the station [m] that returns the shape (8) of rails at rest: shifts
+    y, z of the left and of the right rail [m], then their slopes along the track [-]; or None;
     elasticity: springs under each rail, or None for rails that do not give way; name: of the
     wheelset.
     """
@@ -288,9 +291,9 @@ class WheelRailContact:
         if self.irregularity is not None:
             q = self._data.GetODE2Coordinates(_CURRENT, False)
             station = self.reference[0] + q[self.first] + self.rail_speed * t
-            motion = np.asarray(self.irregularity(station), dtype=float)
-            if not np.array_equal(motion, self.rail_motion):
-                self.rail_motion[:] = motion
+            shape = np.asarray(self.irregularity(station), dtype=float)
+            if not np.array_equal(shape, self.rail_motion[_SHAPE]):
+                self.rail_motion[_SHAPE] = shape
                 self.forget()
         if self.elasticity is not None:
             shifts = self._data.GetODE1Coordinates()[self._rail_place]
@@ -338,10 +341,10 @@ class WheelRailContact:
         """
         self.place(mbs)
         state = self._state.copy()
-        motions, shifts = np.zeros((len(coordinates), 8)), np.zeros((len(coordinates), 4))
+        motions, shifts = np.zeros((len(coordinates), 12)), np.zeros((len(coordinates), 4))
         if self.irregularity is not None:
             stations = self.reference[0] + coordinates[:, self.first] + self.rail_speed * times
-            motions[:] = [self.irregularity(station) for station in stations]
+            motions[:, _SHAPE] = [self.irregularity(station) for station in stations]
         if self.elasticity is not None:
             shifts[:] = first_order[:, self._rail_place]
         values = np.empty((len(coordinates), 2, len(WHEEL_VALUES)))
