@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import Contact, catalogue
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.systems.system import DynamicSystem, as_system
+from exudyn_wheelset.systems.system import DynamicSystem, SimulationError, as_system
 
 NAMES = ("cooperrider_bogie_3d", "three_axle_truck", "dtu_car", "manchester_coach")
 
@@ -83,6 +84,42 @@ def test_jacobian_of_the_bodies_is_that_of_the_whole(system):
         general * scales / scales[:, None],
         atol=1e-9 * np.abs(whole).max(),
     )
+
+
+@pytest.mark.parametrize("name", ["three_axle_truck", "cooperrider_bogie_3d"])
+def test_motion_is_that_of_exudyn_s_solver(name):
+    """Both are classical Runge-Kutta methods, in other coordinates of rotation.
+
+    They differ by their errors, which fall with the fourth power of the step where forces are
+    smooth; the creep table's slope is continuous, its curvature not, which leaves at least the
+    second power (a fourth at half the step).
+    """
+    vehicle = catalogue.vehicle(name)
+    times = np.linspace(0.0, 0.4, 101)
+    apart = []
+    for step in (4.0e-4, 2.0e-4):
+        ours = as_system(vehicle, step=step)
+        exudyn = as_system(vehicle, step=step, solver_type="RK44")
+        assert ours.compiled_motion and not exudyn.compiled_motion
+        start = ours.initial_state(30.0)
+        start[list(ours.lateral_indices)] += 2e-3
+        motions = [one.simulate(start, 30.0, times) for one in (ours, exudyn)]
+        apart.append(np.abs((motions[0] - motions[1]) / ours.scales).max())
+    assert apart[1] < apart[0] / 4.0
+    assert apart[1] < 5e-3
+
+
+def test_a_derailed_vehicle_ends_the_compiled_motion():
+    """Pushed off its rails sideways it ends like every motion, with what was computed before."""
+    system = as_system(catalogue.three_axle_truck())
+    start = system.initial_state(20.0)
+    rates = [k for k, name in enumerate(system.state_names) if name.endswith("vy [m/s]")]
+    start[rates] += 6.0
+    with pytest.raises(SimulationError) as caught:
+        system.simulate(start, 20.0, np.linspace(0.0, 2.0, 1001))
+    assert caught.value.outcome.ending in (Ending.WHEEL_CLIMB, Ending.LOST_GAUGE, Ending.LIFT_OFF)
+    assert 2 <= len(caught.value.states) == len(caught.value.times) < 1001
+    assert np.all(np.isfinite(caught.value.states))
 
 
 def test_an_element_that_adds_its_own_items_is_left_to_exudyn():

@@ -86,6 +86,11 @@ class CompiledVehicle:
         kernel.jacobians_at(self._address, states, DIFFERENCE_STEP, matrices)
         return matrices
 
+    def run(self, state: Array, step: float, samples: Array, steps: int) -> int:
+        """Carry a state (n,) on in place by Runge-Kutta steps [s]; a row of samples (m, n) after
+        each `steps` of them. Returns the number of finite rows."""
+        return int(kernel.run_at(self._address, state, step, samples, steps))
+
 
 def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
     """Rows (nb, BODY_ROW) of the bodies, and the inverse masses (6 nb)."""

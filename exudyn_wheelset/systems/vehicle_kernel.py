@@ -232,3 +232,34 @@ def jacobians_at(plan, states, relative_step, matrices):
     upper, lower = np.empty(states.shape[1]), np.empty(states.shape[1])
     for row in range(states.shape[0]):
         _jacobian(states[row].copy(), model, relative_step, upper, lower, matrices[row])
+
+
+@compiled
+def run_at(plan, state, step, samples, steps):
+    """Carry a state (n,) on by the classical Runge-Kutta method, in place.
+
+    After each `steps` steps [s] a row of samples (m, n) is filled; returns how many are finite.
+    """
+    model = _model_at(plan)
+    size = state.shape[0]
+    one, two, three, four = np.empty(size), np.empty(size), np.empty(size), np.empty(size)
+    between = np.empty(size)
+    for row in range(samples.shape[0]):
+        for _ in range(steps):
+            _rate(state, model, one)
+            for k in range(size):
+                between[k] = state[k] + 0.5 * step * one[k]
+            _rate(between, model, two)
+            for k in range(size):
+                between[k] = state[k] + 0.5 * step * two[k]
+            _rate(between, model, three)
+            for k in range(size):
+                between[k] = state[k] + step * three[k]
+            _rate(between, model, four)
+            for k in range(size):
+                state[k] += step / 6.0 * (one[k] + 2.0 * (two[k] + three[k]) + four[k])
+        for k in range(size):
+            samples[row, k] = state[k]
+            if not np.isfinite(state[k]):
+                return row
+    return samples.shape[0]

@@ -9,11 +9,14 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.coupling.derailment import DerailmentWatch
+from exudyn_wheelset.coupling.running import CHECK_INTERVAL
 from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.compiled_vehicle import CompiledVehicle
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.systems.system import Array
+from exudyn_wheelset.systems.system import Array, SimulationError
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP
@@ -28,13 +31,15 @@ SHORTEST_STEP = 5.0e-6
 class VehicleSystem(ExudynSystem):
     """The system of a vehicle, with the item numbers of its parts by name.
 
-    Rates and Jacobians come from the compiled equations (`vehicle_kernel`), motion from Exudyn's
-    solver. Elements that add Exudyn items of their own are known to Exudyn alone, which then
-    computes everything.
+    Rates and Jacobians come from the compiled equations (`vehicle_kernel`), and so does the motion
+    at equal times unless a solver or settings of Exudyn were asked for: by the classical
+    Runge-Kutta method at the same step as Exudyn's RK44, with the same endings. Elements that add
+    Exudyn items of their own are known to Exudyn alone, which then computes everything.
     """
 
     vehicle_items: VehicleItems
     compiled: CompiledVehicle | None = None
+    compiled_motion = False
 
     def compile(self, vehicle: Vehicle, items: VehicleItems) -> None:
         """Let rates and Jacobians come from the compiled equations where they know all forces."""
@@ -69,6 +74,51 @@ class VehicleSystem(ExudynSystem):
         self._place(speed)
         return self.compiled.jacobians(states)
 
+    def simulate(self, state: Array, speed: float, times: Array) -> Array:
+        """Motion from `state` (n,) at times[0], at `times` (m,) [s]; shape (m, n).
+
+        Raises SimulationError, which keeps the samples before, if it ends early.
+        """
+        times = np.asarray(times, dtype=float)
+        equal = times.ndim == 1 and len(times) > 1 and times[1] > times[0]
+        if not (
+            self.compiled_motion and equal and np.allclose(np.diff(times), times[1] - times[0])
+        ):
+            return super().simulate(state, speed, times)
+        self._place(speed)
+        assert self.compiled is not None
+        return self._carried_on(self.compiled, np.array(state, dtype=float), speed, times)
+
+    def _carried_on(
+        self, compiled: CompiledVehicle, state: Array, speed: float, times: Array
+    ) -> Array:
+        """Motion of the compiled equations, looked at as often as that of Exudyn's solver."""
+        interval = float(times[-1] - times[0]) / (len(times) - 1)
+        steps = max(1, int(np.ceil(interval / self.step - 1e-9)))
+        together = max(1, int(CHECK_INTERVAL / interval))
+        samples = np.empty((len(times), self.size))
+        samples[0] = state
+        watch = DerailmentWatch(self.contacts)
+        watch.begin(float(times[0]))
+        done, outcome = 1, None
+        while outcome is None and done < len(times):
+            rows = samples[done : done + together]
+            finite = compiled.run(state, interval / steps, rows, steps)
+            done += finite
+            if finite < len(rows):
+                outcome = Outcome(Ending.NOT_FINITE)
+            else:
+                outcome = watch.look(float(times[done - 1]))
+        if outcome is None:
+            return samples
+        raise SimulationError(
+            f"{self.name}: the motion at {speed:g} m/s ended after {times[done - 1]:.6g} s: "
+            f"{outcome}",
+            times[:done],
+            samples[:done],
+            outcome,
+        )
+
     def _place(self, speed: float) -> None:
         self.use_speed(speed)
         assert self.compiled is not None
@@ -79,8 +129,10 @@ def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
     """The vehicle alone in an Exudyn model; options are those of ExudynSystem.
 
     The time step, if it is not given, is one that Exudyn's RK44 follows: shorter than its usual one
-    where a driven axle or a stiff damper in series is faster.
+    where a driven axle or a stiff damper in series is faster. With `solver_type` or `settings`
+    given the system's motion is that of Exudyn's solver, else that of the compiled equations.
     """
+    asked = any(options.get(name) is not None for name in ("settings", "solver_type"))
     if options.get("settings") is None and options.get("step") is None:
         options["step"] = followed_step(vehicle)
     container = exu.SystemContainer()
@@ -91,6 +143,7 @@ def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
     options.setdefault("parameters", numbers_of(vehicle))
     system = VehicleSystem(mbs, container, **options)
     system.compile(vehicle, items)
+    system.compiled_motion = system.compiled is not None and not asked
     return system
 
 
