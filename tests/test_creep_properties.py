@@ -120,6 +120,41 @@ def test_always_finite(law, sx, sy, psi, a, ratio, force, mu, poisson):
 
 
 @pytest.mark.parametrize("law", list(CREEP_LAWS))
+def test_finite_for_all_that_is_accepted(law):
+    """Every argument over its whole range, by the decade: no product of them overflows."""
+    random = np.random.default_rng(11)
+    count = {"exact": 300, "fastsim": 5000}.get(law, 20000)
+    patch = {
+        name: 10 ** random.uniform(*decades, count)
+        for name, decades in {
+            "a": (-60, 9),
+            "b": (-60, 9),
+            "normal_force": (-300, 60),
+            "friction": (-300, 6),
+            "shear_modulus": (-60, 24),
+        }.items()
+    }
+    creepages = 10 ** random.uniform(-300, 308, (3, count))
+    creepages *= random.choice([-1, 0, 1], (3, count), p=[0.4, 0.1, 0.5])
+    choices = [{"flexibilities": n} for n in (1, 2, 3)] if law == "fastsim" else options(law)
+    for option in choices:
+        poisson = random.uniform(0, 0.5, count)
+        result = np.array(creep_force(law, *creepages, **patch, poisson=poisson, **option))
+        assert np.all(np.isfinite(result))
+        if law != "linear":
+            limit = patch["friction"] * patch["normal_force"]
+            assert np.all(np.hypot(*result[:2]) <= limit * (1 + 1e-12))
+
+
+def test_fastsim_slides_alike_however_fast():
+    """At 1e20 and 1e200 times saturation the direction of slip decides alone."""
+    patch = (5e-3, 4e-3, 8e4, 1e-103, *STEEL)
+    slow = creep_force("fastsim", 1e-80, -2e-80, 3e-77, *patch)
+    fast = creep_force("fastsim", 1e40, -2e40, 3e43, *patch)
+    np.testing.assert_allclose(fast, slow, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", list(CREEP_LAWS))
 def test_nothing_from_nothing(law):
     patch = (5e-3, 4e-3)
     assert creep_force(law, 0.0, 0.0, 0.0, *patch, 8e4, 0.3, *STEEL) == (0.0, 0.0, 0.0)

@@ -13,6 +13,12 @@ from exudyn_wheelset.creep.law import CreepLaw
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
 from exudyn_wheelset.errors import WheelsetError
 
+LEAST = 1e-60
+LARGEST_PATCH = 1e9
+LARGEST_FORCE = 1e60
+LARGEST_FRICTION = 1e6
+LARGEST_SHEAR_MODULUS = 1e24
+
 
 def unknown(kind: str, name: object, known: list[str]) -> str:
     """Message for a name that is not among `known`, with the nearest one."""
@@ -71,20 +77,24 @@ def check_together(description: CreepLaw, values: NDArray) -> None:
 
 
 def check_patch(values: dict[str, NDArray]) -> None:
-    """Raise WheelsetError for a patch or a material that cannot be."""
+    """Raise WheelsetError for a patch or a material that cannot be.
+
+    The ends are far beyond any real one, so that no law's squares and products overflow.
+    """
     limits = {
-        "a": ("m", math.ulp(0.0), math.inf),
-        "b": ("m", math.ulp(0.0), math.inf),
-        "friction": ("-", 0.0, math.inf),
-        "shear_modulus": ("Pa", math.ulp(0.0), math.inf),
+        "a": ("m", LEAST, LARGEST_PATCH),
+        "b": ("m", LEAST, LARGEST_PATCH),
+        "normal_force": ("N", -math.inf, LARGEST_FORCE),
+        "friction": ("-", 0.0, LARGEST_FRICTION),
+        "shear_modulus": ("Pa", LEAST, LARGEST_SHEAR_MODULUS),
         "poisson": ("-", 0.0, 0.5),
     }
     for name, (unit, low, high) in limits.items():
         wrong = (values[name] < low) | (values[name] > high)
         if np.any(wrong):
-            ask = "positive" if high == math.inf and low > 0.0 else "at least 0"
-            if high < math.inf:
-                ask = f"from {low:g} to {high:g}"
+            ask = f"from {low:g} to {high:g}" if low > -math.inf else f"at most {high:g}"
+            if low > 0.0:
+                ask = f"positive, {ask}"
             raise WheelsetError(
                 f"{name} = {values[name][wrong].flat[0]:g} [{unit}]; it must be {ask}"
             )

@@ -52,6 +52,8 @@ from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 ONE, BLENDED, THREE = 1.0, 2.0, 3.0
 # creepage over saturation by the linear theory at which the blend has become one flexibility
 _ONE_FROM = 3.0
+# traction that a cell's slip would build up, over the bound: its fourth power stays finite
+LARGEST = 1e60
 
 LAW = CreepLaw(
     "fastsim",
@@ -214,6 +216,14 @@ def fastsim(
     slip_y = creep_y / soft_y * to_traction
     turn_x = spin * b / soft_spin * to_traction
     turn_y = spin * a / soft_spin * to_traction
+    # beyond LARGEST all slides, in a direction that keeps when all slips are scaled down together
+    largest = max(abs(slip_x), abs(slip_y), abs(turn_x), abs(turn_y))
+    if largest > LARGEST:
+        scale = LARGEST / largest
+        slip_x *= scale
+        slip_y *= scale
+        turn_x *= scale
+        turn_y *= scale
     change = turn_y * step
     cell_bound = 1.0 - step * step / 12.0
     sum_x = sum_y = moment_x = moment_y = 0.0
