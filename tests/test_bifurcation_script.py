@@ -15,7 +15,10 @@ import pytest
 
 from exudyn_wheelset.catalogue.by_name import CATALOGUE, vehicle, vehicle_system
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.front.diagrams import draw_diagram
+from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.stability.hunting.branch import Branch
+from exudyn_wheelset.stability.hunting.diagram import Diagram, branch_from, disturbed_speeds
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import as_system
@@ -33,12 +36,12 @@ def script():
 
 
 @pytest.fixture(scope="module")
-def bogie(script, tmp_path_factory):
+def bogie(tmp_path_factory):
     """Folder and printed numbers of a run for the bogie that stops before the flange."""
     folder = tmp_path_factory.mktemp("bogie")
     system = vehicle_system("cooperrider")
     (hopf,) = hopf_points(system, 60.0, 75.0)
-    branch = script.follow(system, hopf, (65.0, 72.0), intervals=12)
+    branch = branch_from(system, hopf, (65.0, 72.0), intervals=12)
     return folder, system, hopf, branch
 
 
@@ -137,10 +140,10 @@ def test_a_file_is_drawn_again_and_gives_the_same_numbers(script, bogie, capsys)
     assert (folder / "again" / "kept.png").stat().st_size > 1e4
 
 
-def test_stable_pieces_are_drawn_solid_and_unstable_ones_dashed(script, bogie):
+def test_stable_pieces_are_drawn_solid_and_unstable_ones_dashed(bogie):
     _, _, hopf, branch = bogie
-    _, axes = script.new_figure(4.0, 3.0)
-    script.draw_diagram(axes[0, 0], script.Diagram([branch]))
+    _, axes = new_figure(4.0, 3.0)
+    draw_diagram(axes[0, 0], Diagram([branch]))
     drawn = {"-": [], "--": []}
     for line in axes[0, 0].lines:
         if line.get_linestyle() in drawn and len(line.get_xdata()):
@@ -156,9 +159,9 @@ def test_stable_pieces_are_drawn_solid_and_unstable_ones_dashed(script, bogie):
     assert f"Hopf {hopf.speed:.2f} m/s" in texts and f"fold {fold.speed:.2f} m/s" in texts
 
 
-def test_disturbed_speeds_lie_where_both_motions_are_stable(script, bogie):
+def test_disturbed_speeds_lie_where_both_motions_are_stable(bogie):
     branch = bogie[3]
-    speeds = script.disturbed_speeds(branch)
+    speeds = disturbed_speeds(branch)
     assert np.all((branch.folds[0].speed < speeds) & (speeds < branch.hopf[0]))
 
 
@@ -174,7 +177,7 @@ def test_descent_and_blows_agree_with_the_branch(script, bogie, capsys, tmp_path
     assert numbers["descent"]["speed"] == pytest.approx(numbers["folds"][0], abs=0.06)
     stem = tmp_path / "bifurcation_cooperrider"
     branch = Branch.load(stem.with_suffix(".npz"))
-    diagram = script.read([stem.with_name(f"{stem.name}_disturbance.npz")])
+    diagram = Diagram.load([stem.with_name(f"{stem.name}_disturbance.npz")])
     name = branch.amplitude.names[0]
     (edge,) = branch.amplitudes_at(68.0, name, stable=False)
     # Where two motions part, the one has left the edge by up to a fifth.

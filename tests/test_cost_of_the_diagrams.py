@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from exudyn_wheelset import hopf_points
+from exudyn_wheelset.catalogue import entry, vehicle_system
 from exudyn_wheelset.catalogue.cooperrider_bogie import cooperrider_system
 from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
+from exudyn_wheelset.stability.hunting.diagram import branch_from, first_hopf_point
 
 MODELS = Path(__file__).parents[1] / "models"
 BOGIE = {"right_hand_sides": 60_677, "jacobians": 8_480, "newton_steps": 273}
@@ -57,8 +58,6 @@ def test_differences_cost_one_right_hand_side_a_state_and_jacobian(bogie):
 @pytest.mark.slow
 def test_the_s1002_wheelset_stays_in_its_budget():
     """models/bifurcation.py with its defaults."""
-    script = load("bifurcation")
-    system = script.vehicle_system("s1002", None)
-    points = hopf_points(system, *script.entry("s1002").searched)
-    (hopf,) = [point for point in points if point.direction == "loses stability"][:1]
-    assert cost_of(script.follow(system, hopf, None)) == pytest.approx(S1002, rel=0.06)
+    system = vehicle_system("s1002")
+    hopf, _ = first_hopf_point(system, *entry("s1002").searched)
+    assert cost_of(branch_from(system, hopf)) == pytest.approx(S1002, rel=0.06)

@@ -184,7 +184,7 @@ def test_plot_shows_stable_and_unstable_parts(tmp_path):
     styles = [line.get_linestyle() for line in axes.lines]
     assert "--" in styles and "-" in styles
     texts = {text.get_text() for text in axes.texts}
-    assert texts == {"Hopf -0.00", "fold -0.25"} or texts == {"Hopf 0.00", "fold -0.25"}
+    assert {text.replace("-0.00", "0.00") for text in texts} == {"Hopf 0.00 m/s", "fold -0.25 m/s"}
     dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
     # From the Hopf point to the fold, in order.
     assert dashed.get_xdata()[0] == pytest.approx(0.0, abs=1e-8)

@@ -9,7 +9,6 @@ are kept as data files (default runs/out/hunting), which models/bifurcation.py -
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -17,18 +16,25 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.catalogue.by_name import entry, vehicle, vehicle_system
+from exudyn_wheelset.front.diagrams import diagram_figure, draw_diagram
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.diagram import (
+    RANGE,
+    Diagram,
+    branch_from,
+    disturbed_speeds,
+    mode_at_peak,
+    rate_of,
+)
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
-sys.path.insert(0, str(REPOSITORY / "models"))
-import bifurcation  # noqa: E402
 
 LAWS = ("polach", "shen-hedrick-elkins", "fastsim")
 # Flange impacts are taken up in one blow, as on a track with ballast (catalogue/by_name.py).
@@ -52,7 +58,7 @@ def branch_of(
     hopf = hopf_points(system, *entry(name).searched)[0]
     speeds = (span[0] * hopf.speed, span[1] * hopf.speed)
     about = {"vehicle": name, "options": changes}
-    branch = bifurcation.follow(system, hopf, speeds, about=about, maximum_points=points)
+    branch = branch_from(system, hopf, speeds, about=about, maximum_points=points)
     stem = "_".join([name, *(f"{key}_{value}" for key, value in changes.items())])
     branch.save(folder / f"{stem}.npz")
     folds = ", ".join(f"{fold.speed:.2f} ({fold.side})" for fold in branch.folds) or "none"
@@ -89,8 +95,8 @@ def sets(folder: Path) -> None:
             branches.append(branch)
             if law == "polach":
                 descent = descent_of(folder, f"paper-{k}", system, hopf)
-        shown = bifurcation.Diagram(branches, [descent])
-        bifurcation.draw_diagram(whole, shown, ["C0", "C2"], ["polach", "fastsim"], notes=False)
+        shown = Diagram(branches, [descent])
+        draw_diagram(whole, shown, ["C0", "C2"], ["polach", "fastsim"], notes=False)
         whole.set_ylim(0.0, 14.0)
         whole.set_title(f"set {k}", fontsize=10)
         whole.set_xlabel("")
@@ -129,22 +135,22 @@ def influences(folder: Path) -> None:
             branches.append(branch)
             known = branch if place == 1 else known
         labels = [words.format(value) for value in values]
-        bifurcation.draw_diagram(panel, bifurcation.Diagram(branches), labels=labels, notes=False)
+        draw_diagram(panel, Diagram(branches), labels=labels, notes=False)
     write_figure(HERE / "hunting_influences.png", figure)
 
 
 def s1002(folder: Path) -> None:
     """S1002 on UIC60: continuation, descent and disturbance runs on one figure."""
-    system, hopf, branch = branch_of(folder, "s1002", bifurcation.RANGE, 200)
+    system, hopf, branch = branch_of(folder, "s1002", RANGE, 200)
     largest = 1.05 * float(branch.amplitude["y"].max())
-    high = bifurcation.RANGE[1] * hopf.speed
-    start = system.equilibrium(high) + largest * bifurcation.lateral_mode(system, hopf)
+    high = RANGE[1] * hopf.speed
+    start = system.equilibrium(high) + largest * mode_at_peak(system, hopf)
     begun = time.perf_counter()
     descent = quasi_static_descent(system, high, 0.9 * hopf.speed, step=0.5, state=start)
     print(f"descent: {descent.reason}; {time.perf_counter() - begun:.0f} s", flush=True)
     begun = time.perf_counter()
-    blow = bifurcation.velocity_of(system, 1, hopf.speed)
-    speeds = bifurcation.disturbed_speeds(branch, 5)
+    blow = rate_of(system, 1, hopf.speed)
+    speeds = disturbed_speeds(branch, 5)
     runs = critical_disturbance(system, speeds, 1.0, direction=blow, tolerance=0.005)
     for speed, size, edge in zip(runs.speeds, runs.critical, runs.edge, strict=True):
         (unstable,) = branch.amplitudes_at(speed, "y", stable=False)[:1]
@@ -155,11 +161,9 @@ def s1002(folder: Path) -> None:
     print(f"disturbance runs: {runs.runs}; {time.perf_counter() - begun:.0f} s", flush=True)
     descent.save(folder / "s1002_descent.npz")
     runs.save(folder / "s1002_disturbance.npz")
-    bifurcation.draw(
-        HERE / "hunting_s1002.png",
-        bifurcation.Diagram([branch], [descent], [runs]),
-        "S1002 on UIC60, 1:40, gauge 1435 mm: three methods",
-    )
+    shown = Diagram([branch], [descent], [runs])
+    title = "S1002 on UIC60, 1:40, gauge 1435 mm: three methods"
+    write_figure(HERE / "hunting_s1002.png", diagram_figure(shown, title))
 
 
 def small(folder: Path) -> None:
@@ -173,7 +177,7 @@ def small(folder: Path) -> None:
             system = vehicle_system(f"paper-{k}", creep=law)
             hopf = hopf_points(system, *entry(f"paper-{k}").searched)[0]
             span = (0.97 * hopf.speed, 1.03 * hopf.speed)
-            branch = bifurcation.follow(system, hopf, span, maximum_points=2)
+            branch = branch_from(system, hopf, span, maximum_points=2)
             cells.append(f"{hopf.speed:.3f}, {branch.speed[0]:.3f}")
         print(f"| {law} | " + " | ".join(cells) + " |")
 

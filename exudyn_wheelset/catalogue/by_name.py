@@ -75,14 +75,21 @@ def vehicle_system(
 
     Raises WheelsetError as `vehicle`, and for settings of a vehicle that is not in Exudyn.
     """
-    found = vehicle(name, **changes)
-    if isinstance(found, Vehicle):
-        return systems.vehicle_system(found, settings=settings)
-    if not isinstance(found, DynamicSystem):
-        return found.dynamic_system(settings=settings)
+    return system_of(vehicle(name, **changes), settings)
+
+
+def system_of(vehicle: Any, settings: exu.SimulationSettings | None = None) -> DynamicSystem:
+    """A vehicle, of the catalogue or a description, as a system with these solver settings.
+
+    Raises WheelsetError for settings of a vehicle that is not in Exudyn.
+    """
+    if isinstance(vehicle, Vehicle):
+        return systems.vehicle_system(vehicle, settings=settings)
+    if not isinstance(vehicle, DynamicSystem):
+        return vehicle.dynamic_system(settings=settings)
     if settings is not None:
-        raise WheelsetError(f"{name} is not built in Exudyn: leave the solver settings out")
-    return found
+        raise WheelsetError(f"{vehicle.name} is not built in Exudyn: leave the solver settings out")
+    return vehicle
 
 
 def entry(name: str) -> Entry:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from exudyn_wheelset.checking import number, unknown
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
+from exudyn_wheelset.vehicles.description import Vehicle
 
 
 @dataclass(frozen=True)
@@ -73,9 +74,27 @@ class Changes:
         changed = self.given("rail", "gauge", "gauge_depth", "inclination")
         if "gauge" in changed:
             own.pop("datum_half_distance", None)
+            own.pop("origin_half_distance", None)
         return Track(**{**own, **changed})
 
     def contact(self, **own: Any) -> Contact:
         """The vehicle's contact with its changes."""
         names = ("friction", "creep", "shear_modulus", "poisson", "normal", "damping")
         return Contact(**{**own, **self.given(*names)})
+
+    def applied_to(self, vehicle: Vehicle) -> Vehicle:
+        """A described vehicle with these changes, on all its wheelsets."""
+        contact = _arguments_of(vehicle.contact)
+        if self.creep is not None:
+            del contact["law_parameters"]
+        changed = vehicle.on(self.track(**_arguments_of(vehicle.track)))
+        changed = replace(changed, contact=self.contact(**contact))
+        if self.wheel is not None or self.conicity is not None:
+            changed = changed.replace("wheelsets.*.wheel", self.tread(""))
+        for name, value in self.given("tape_half_distance", "radius").items():
+            changed = changed.replace(f"wheelsets.*.{name}", value)
+        return changed
+
+
+def _arguments_of(description: Any) -> dict[str, Any]:
+    return {entry.name: getattr(description, entry.name) for entry in fields(description)}

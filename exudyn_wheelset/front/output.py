@@ -11,13 +11,13 @@ from exudyn_wheelset.results.files import plain, write_atomically
 from exudyn_wheelset.results.versions import versions
 
 
-def write_json(path: Path, numbers: Mapping[str, Any], **about: Any) -> Path:
+def write_json(path: str | Path, numbers: Mapping[str, Any], **about: Any) -> Path:
     """Write numbers with what they are about (settings, parameters) and all versions."""
     record = {"numbers": numbers, **about, "versions": versions()}
     text = json.dumps(record, indent=2, default=plain) + "\n"
     return write_atomically(path, lambda part: part.write_text(text, encoding="utf-8"))
 
 
-def write_figure(path: Path, figure: Any) -> Path:
+def write_figure(path: str | Path, figure: Any) -> Path:
     """Save a matplotlib figure."""
     return write_atomically(path, lambda part: figure.savefig(part, dpi=130))

@@ -12,8 +12,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import exudyn as exu
+
+from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.front.settings import load_settings
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.results.files import plain
 
@@ -34,6 +38,22 @@ def script_parser(description: str, *, settings: bool = True) -> argparse.Argume
             "--settings", type=Path, default=None, help="Exudyn solver settings file (JSON)"
         )
     return parser
+
+
+def get_ready(
+    arguments: argparse.Namespace, default: Path | None = None
+) -> exu.SimulationSettings | None:
+    """Load the settings of --settings, or of the file `default`, and compile the kernels.
+
+    None where neither names a file. Without --json it says how long the kernels took. Raises
+    SettingsError for a file that is wrong.
+    """
+    path = getattr(arguments, "settings", None) or default
+    settings = None if path is None else load_settings(path)
+    seconds = warm_up()
+    if not arguments.json:
+        print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
+    return settings
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
+from exudyn_wheelset.stability.hunting.branch_plot import draw_branch
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.systems.system import Array
 
@@ -152,7 +153,7 @@ class Branch:
             before, after = self.speed[index : index + 2] - speed
             if before * after > 0.0 or (before == 0.0 and index > 0):
                 continue
-            if stable is not None and stable != self._steady(index):
+            if stable is not None and stable != self.stable_after(index):
                 continue
             if before == 0.0 or after == 0.0:
                 found.append(float(column[index if before == 0.0 else index + 1]))
@@ -256,42 +257,12 @@ class Branch:
 
             ax = plt.subplots()[1]
         name = name or self.amplitude.names[0]
-        speed, values = self.speed, factor * self.amplitude[name]
-        steady = [self._steady(index) for index in range(len(self) - 1)]
-        if self.hopf is not None:
-            speed, values = np.append(self.hopf[0], speed), np.append(0.0, values)
-            steady.insert(0, bool(self.stable[0]))
-        shown = False
-        first = 0
-        for index in range(1, len(steady) + 1):
-            if index < len(steady) and steady[index] == steady[first]:
-                continue
-            piece = slice(first, index + 1)
-            style = "-" if steady[first] else "--"
-            text = label if steady[first] and not shown else None
-            shown = shown or steady[first]
-            ax.plot(speed[piece], values[piece], style, color=colour, label=text)
-            first = index
-        if self.hopf is not None:
-            ax.plot(self.hopf[0], 0.0, "o", color=colour)
-            self._note(ax, f"Hopf {self.hopf[0]:.2f}", self.hopf[0], 0.0)
-        for fold in self.folds:
-            height = factor * self.amplitude[name][fold.index]
-            ax.plot(fold.speed, height, "s", color=colour)
-            self._note(ax, f"fold {fold.speed:.2f}", fold.speed, height)
-        for change in self.changes:
-            height = factor * self.amplitude[name][change.index]
-            ax.plot(change.speed, height, "^", color=colour, fillstyle="none")
-            self._note(ax, f"{change.kind} {change.speed:.2f}", change.speed, height)
+        draw_branch(ax, self, name, factor, colour, label)
         ax.set_xlabel("forward speed [m/s]")
         ax.set_ylabel(f"half of peak to peak: {name}" + (f" x {factor:g}" if factor != 1 else ""))
         return ax
 
-    @staticmethod
-    def _note(ax: Axes, text: str, speed: float, height: float) -> None:
-        ax.annotate(text, (speed, height), xytext=(4, 6), textcoords="offset points", fontsize=8)
-
-    def _steady(self, index: int) -> bool:
+    def stable_after(self, index: int) -> bool:
         """Whether the piece from a point to the next is stable; a fold goes with its neighbour."""
         folds = {fold.index for fold in self.folds}
         if index in folds:
