@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_wheelset import Contact, catalogue
+from exudyn_wheelset import Contact, FrictionWedge, Spring, catalogue
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import DynamicSystem, SimulationError, as_system
@@ -26,7 +26,19 @@ def driven_truck():
 
 
 VEHICLES = {name: lambda name=name: catalogue.vehicle(name) for name in NAMES}
+
+
+def truck_on_wedges():
+    """A truck whose vertical springs have friction wedges beside them: several states a law."""
+    truck = catalogue.three_axle_truck()
+    wedge = FrictionWedge(angle=32.0, friction=0.4, column_force=2.0e4, spring=6e5)
+    first, second = [one for one in truck.connections if isinstance(one.element, Spring)][:2]
+    wedges = (replace(first, element=wedge, name="a"), replace(second, element=wedge, name="b"))
+    return replace(truck, connections=(*truck.connections, *wedges))
+
+
 VEHICLES |= {
+    "truck on wedges": truck_on_wedges,
     "driven truck": driven_truck,
     "own law of the truck": lambda: replace(
         catalogue.vehicle("three_axle_truck"), contact=Contact(creep="fastsim", friction=0.3)

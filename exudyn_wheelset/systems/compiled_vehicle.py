@@ -145,9 +145,10 @@ def _owners(states: Layout, block: Array, count: int) -> Array:
             owners[position] = body_of[coordinate]
     end = states.positions + len(body_of)
     owners[states.positions : end] = body_of
+    # The states of a law follow one another, and those of the laws the order of the rows.
     for row in _law_rows(block):
         if row[places.STATE] >= 0:
             ends = [int(row[places.LOWER]), int(row[places.UPPER])]
-            owners[end + int(row[places.STATE])] = min(ends)
+            owners[end + int(row[places.STATE]) :] = min(ends)
     assert np.all(owners < count)
     return owners
