@@ -13,6 +13,11 @@ r = (A3 - A2)/(A2 - A1), the geometric series puts the rest of the way at (A3 - 
               that leaves a large cycle may yet settle on a small one;
 - undecided   otherwise, e.g. in the slow passage past a fold, where r is about 1.
 
+On a straight tread motion is nearly linear, and below the critical speed a large one falls for
+hundreds of cycles at one steady rate. What is undecided after all its cycles and falls so is
+probed: its deviation from the equilibrium is cut to LEAP of it, again and again. If it falls at
+every size down to rest it dies out; if a smaller one grows or settles, it goes to that cycle.
+
 The vehicle has settled when every truck has settled or died out, one of them hunting, and it has
 died out when all trucks have. Amplitudes in m or rad, times in s.
 """
@@ -37,6 +42,11 @@ BEAT_MEAN, BEAT_RANGE = 0.01, 0.2
 # Share of the largest amplitude below which no smaller cycle is expected: wheelsets on S1002 have
 # cycles of 2.4 and 0.06 mm at one speed.
 FAR_DOWN = 0.01
+# A falling motion is cut to this share of itself to see whether it falls there too, and watched for
+# so many blocks; the first still hold what the cut itself has stirred.
+LEAP, LEAP_BLOCKS, STIRRED = 0.3, 12, 3
+# Least fall over the second half of a motion that says where it goes.
+SHOWN = 0.03
 # A truck below the amplitude of rest and this share of another's does not hunt by itself.
 SHAKEN = 0.1
 
@@ -144,9 +154,52 @@ class WatchedMotion:
             verdict = self.advance()
             if verdict is not Ending.UNDECIDED:
                 return verdict
-            if self.cycles >= self.settling.cycles:
-                fading = all(_falls_away(means) for means in self.by_truck.values())
-                return Ending.DIED_OUT if fading else verdict
+            if self.cycles < self.settling.cycles:
+                continue
+            falling = [means for name, means in self.by_truck.items() if self.hunting[name]]
+            if all(map(_falls_away, self.by_truck.values())):
+                return Ending.DIED_OUT
+            return self._probe() if all(map(_falls_steadily, falling)) else verdict
+
+    def _probe(self) -> Ending:
+        """Whether a motion that falls steadily falls at all smaller sizes too.
+
+        It becomes the smaller motion where that does not fall.
+        """
+        system, speed = self.system, self.speed
+        rest = system.equilibrium(speed)
+        state, period, time = self.state, self.period, self.time
+        while True:
+            smaller = rest + LEAP * (state - rest)
+            probe = WatchedMotion(system, speed, smaller, period, self.watched, self.settling)
+            for _ in range(LEAP_BLOCKS):
+                verdict = probe.advance()
+                if verdict is not Ending.UNDECIDED:
+                    break
+            time += probe.time
+            if verdict is Ending.CONTACT_LOST:
+                return Ending.UNDECIDED
+            fell = all(
+                means[-1] < means[min(STIRRED, len(means) - 1)] for means in probe.by_truck.values()
+            )
+            low = all(
+                means[-1] < self.settling.rest * system.scales[self.watched[name]]
+                for name, means in probe.by_truck.items()
+            )
+            if verdict is Ending.DIED_OUT or (verdict is Ending.UNDECIDED and fell and low):
+                self.time = time
+                return Ending.DIED_OUT
+            if verdict is Ending.UNDECIDED and fell:
+                state, period = probe.state, probe.period
+                continue
+            while verdict is Ending.UNDECIDED and probe.cycles < self.settling.cycles:
+                before, verdict = probe.time, probe.advance()
+                time += probe.time - before
+            if verdict is Ending.CONTACT_LOST:
+                return Ending.UNDECIDED
+            self.__dict__.update(probe.__dict__)
+            self.time = time
+            return verdict
 
     def truck_amplitudes(self) -> dict[str, float]:
         """Mean amplitude [m or rad] of each truck, over the beat if it beats."""
@@ -221,6 +274,23 @@ def _falls_away(means: list[float]) -> bool:
     logs = np.diff(np.log(means[-TREND - 1 :]))
     first, second = np.sum(logs[: TREND // 2]), np.sum(logs[TREND // 2 :])
     return bool(np.all(logs < 0.0) and second < 1.1 * first and first + second < -0.01)
+
+
+def _falls_steadily(means: list[float]) -> bool:
+    """Whether the amplitude falls in every block of the second half, towards less than half.
+
+    With dA/dt = -k (A - A*) the rates of log A at two amplitudes give A*: at A* = A2/2 their ratio
+    is 0.5/(1 - 0.5 A2/A1). The amplitudes are those in the middle of the third and last quarter.
+    """
+    quarter = len(means) // 4
+    if quarter < 2:
+        return False
+    logs = np.log(means[-2 * quarter - 1 :])
+    if np.any(np.diff(logs) >= 0.0) or logs[0] - logs[-1] < SHOWN:
+        return False
+    first, second = logs[0] - logs[quarter], logs[quarter] - logs[-1]
+    share = float(np.exp(-0.5 * (first + second)))
+    return bool(second / first > 0.5 / (1.0 - 0.5 * share))
 
 
 def cycle_amplitudes(times: Array, signal: Array) -> tuple[Array, float]:
