@@ -81,12 +81,14 @@ _PLACES = {
     "root_locus": "stability.linear.linearisation",
     "save_profile": "profiles",
     "simulate": "systems.simulation",
+    "Study": "studies",
+    "study": "studies",
     "static_equilibrium": "vehicles.statics",
     "wheelsets_of": "coupling.registration",
     "with_free_lengths": "vehicles.statics",
 }
 
-_FOLDERS = ("catalogue",)
+_FOLDERS = ("catalogue", "studies")
 
 __all__ = sorted([*_PLACES, *_FOLDERS, "__version__"])
 

@@ -6,6 +6,10 @@ content of its file and of every file of the package that it imports, directly o
 versions of numba and numpy: changed callees are compiled anew, nothing has to be deleted, and two
 versions of the package side by side do not disturb each other. (numba adds the processor's name.)
 
+Processes that start together with an empty cache do not compile the same kernel side by side: the
+first one to miss it holds a lock file beside its place until it is kept there; the others wait and
+load it.
+
 Place: NUMBA_CACHE_DIR if set, otherwise the user's cache folder; where neither can be written,
 kernels are compiled in memory at every start.
 """
@@ -22,13 +26,17 @@ from pathlib import Path
 from typing import Any
 
 import numba
-from numba.core import caching, config
+from numba.core import caching, config, event
 from numba.misc.appdirs import AppDirs
+
+from exudyn_wheelset.locking import FileLock
 
 PACKAGE = Path(__file__).parent
 # For options `fastmath`: sums and products as of real numbers, in any order and fused; infinities
 # and not-a-number stay what they are. A quarter faster where a kernel is all geometry.
 AS_REAL_NUMBERS = {"contract", "reassoc", "nsz", "arcp"}
+# Longer than the largest kernel takes to compile on a busy machine [s]; then it is compiled twice.
+PATIENCE = 300.0
 _log = logging.getLogger(__name__)
 _IMPORT = re.compile(
     rf"^(?:from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({PACKAGE.name}[\w.]*))",
@@ -115,12 +123,51 @@ class _Cache(caching.FunctionCache):
     _impl_class = _Kept
     _said = False
 
+    def __init__(self, function: Any) -> None:
+        super().__init__(function)
+        place = Path(self._cache_path, f"{self._impl.filename_base}.lock")
+        self._lock = FileLock(place, PATIENCE)
+        self._depth = 0
+
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         kept = super().load_overload(sig, target_context)
-        if kept is None and not _Cache._said:
-            _Cache._said = True
-            _log.warning("compiling the kernels, once: up to a minute")
+        if kept is None and self._depth == 0 and self._lock.acquire():
+            # Another process may have kept it meanwhile.
+            kept = super().load_overload(sig, target_context)
+            if kept is not None:
+                self._lock.release()
+        if kept is None:
+            self._depth += 1
+            if not _Cache._said:
+                _Cache._said = True
+                _log.warning("compiling the kernels, once: up to a minute")
         return kept
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        super().save_overload(sig, data)
+        self.compiled()
+
+    def compiled(self) -> None:
+        """A compilation that `load_overload` has missed is over, kept or failed."""
+        self._depth = max(0, self._depth - 1)
+        if self._depth == 0:
+            self._lock.release()
+
+
+class _Failures(event.Listener):
+    """Gives back the lock of a kernel whose compilation has failed."""
+
+    def on_start(self, event: Any) -> None:
+        pass
+
+    def on_end(self, event: Any) -> None:
+        cache = getattr(event.data["dispatcher"], "_cache", None)
+        # `is_failed` of numba 0.60 to 0.68 is true where there is no exception.
+        if event._exc_details is not None and isinstance(cache, _Cache):
+            cache.compiled()
+
+
+event.register("numba:compile", _Failures())
 
 
 def compiled(function: Any = None, **options: Any) -> Any:
