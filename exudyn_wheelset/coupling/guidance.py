@@ -8,6 +8,7 @@ beside the rail. Track frame, SI.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -34,6 +35,7 @@ class Guidance:
     drop: tuple[float, float]
 
 
+@lru_cache(maxsize=64)
 def guidance(wheelset: Wheelset, track: Track) -> Guidance:
     """Limits of a wheelset on a track, from their profiles."""
     left = wheelset.wheel

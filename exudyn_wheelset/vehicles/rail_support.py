@@ -8,6 +8,7 @@ like loads shift and roll vanish and two are left.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,11 @@ from scipy.optimize import brentq
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
-from exudyn_wheelset.contact.wheelset_contact import contact_forces
+from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.layout import Axle, Velocity, new_result
+from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.contact.wheelset_contact import contact_parameters
+from exudyn_wheelset.coupling.wheel_forces import wheel_force
 from exudyn_wheelset.errors import ContactError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 
@@ -42,26 +47,26 @@ class AxleRest:
     wheel_loads: tuple[float, float]
 
 
-def rail_wrench(
-    wheelset: Wheelset, track: Track, contact: Contact, pose: Array, yaw: float = 0.0
-) -> tuple[Array, tuple[float, float]]:
-    """Wrench (6) and vertical wheel loads (2) at (height, roll, shift, radius) [m, rad]."""
-    height, roll, shift, radius = pose
-    spin = _SPEED / radius
-    level = np.cos(roll)
-    axis = np.array([-np.sin(yaw) * level, np.cos(yaw) * level, np.sin(roll)])
-    found = contact_forces(
-        wheelset,
-        track,
-        (0.0, shift, height, roll, 0.0, yaw),
-        (_SPEED, 0.0, 0.0, *(spin * axis)),
-        contact=contact,
-    )
-    loads = [
-        sum(patch.normal_force * patch.normal[2] - patch.fy * patch.normal[1] for patch in side)
-        for side in (found.left, found.right)
-    ]
-    return np.concatenate([found.force, found.moment]), (loads[0], loads[1])
+class RailWrench:
+    """Wrench of the rails on a wheelset that rolls straight ahead, over its pose."""
+
+    def __init__(self, wheelset: Wheelset, track: Track, contact: Contact) -> None:
+        self._table = contact_tables(wheelset, track)
+        self._parameters = contact_parameters(contact)
+        self._result = new_result()
+        self._motion = np.zeros(12)
+
+    def __call__(self, pose: Array, yaw: float = 0.0) -> tuple[Array, tuple[float, float]]:
+        """Wrench (6) and vertical wheel loads (2) at (height, roll, shift, radius) [m, rad]."""
+        height, roll, shift, radius = pose.tolist()
+        spin, level = _SPEED / radius, math.cos(roll)
+        axis = (-math.sin(yaw) * level, math.cos(yaw) * level, math.sin(roll))
+        velocity = Velocity(_SPEED, 0.0, 0.0, spin * axis[0], spin * axis[1], spin * axis[2])
+        result = self._result
+        axle = Axle(shift, height, *axis)
+        wheelset_forces(self._table, axle, velocity, self._motion, self._parameters, result)
+        loads = [float(wheel_force(result, hand)[1]) for hand in range(2)]
+        return result[:6].copy(), (loads[0], loads[1])
 
 
 def rest_on_rails(
@@ -87,9 +92,11 @@ def rest_on_rails(
         radius = wheelset.radius
     touching = float(geometry.z[0])
 
+    rails = RailWrench(wheelset, track, contact)
+
     def excess(penetration: float) -> float:
         pose = np.array([touching - penetration, 0.0, 0.0, radius])
-        return float(rail_wrench(wheelset, track, contact, pose)[0][2]) - weight
+        return float(rails(pose)[0][2]) - weight
 
     # Where one wheel is the larger, it presses alone before both touch.
     lowest, highest = 0.0, 1.0e-4
@@ -103,12 +110,12 @@ def rest_on_rails(
                 "shear_modulus"
             )
     pose = np.array([touching - brentq(excess, lowest, highest, xtol=1e-14), 0.0, 0.0, radius])
-    wrench, _ = rail_wrench(wheelset, track, contact, pose)
+    wrench, _ = rails(pose)
     scale = np.array([weight, weight * half, weight, weight * radius])
     asked = np.array([weight, tipping, 0.0, 0.0])
 
     def left(trial: Array) -> Array:
-        found, _ = rail_wrench(wheelset, track, contact, trial)
+        found, _ = rails(trial)
         return (found[[2, 3, 1, 4]] - asked) / scale
 
     free = [0, 1, 2, 3]
@@ -122,7 +129,7 @@ def rest_on_rails(
         solved = _newton(left, pose, [k for k in free if k != 2])
     if solved is not None:
         pose = solved
-    wrench, wheel_loads = rail_wrench(wheelset, track, contact, pose)
+    wrench, wheel_loads = rails(pose)
     height, roll, shift, radius = (float(value) for value in pose)
     return AxleRest(height, shift, roll, radius, wrench, wheel_loads)
 

@@ -19,7 +19,7 @@ from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.balance import balance, given_preloads, inertias_of, weights
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
-from exudyn_wheelset.vehicles.rail_support import AxleRest, rail_wrench, rest_on_rails
+from exudyn_wheelset.vehicles.rail_support import AxleRest, RailWrench, rest_on_rails
 from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
 
 _NEWTON_STEPS = 60
@@ -181,6 +181,9 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
     spins = len(vehicle.wheelsets)
     pulled, weight = heaviest_part(vehicle), float(inertias[:, 0].sum()) * max(vehicle.gravity, 1.0)
     free = _rolls_freely(rest.struts, len(centres))
+    rails = [
+        RailWrench(axle.wheelset, vehicle.track, vehicle.contact) for axle in vehicle.wheelsets
+    ]
 
     def split(unknown: Array) -> tuple[Array, list[AxleRest]]:
         """Pose and wheelsets; a wheelset's pitch stands for the change of its rolling radius."""
@@ -191,7 +194,7 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
             height = centres[k, 2] + trial[k, 2] - axle.wheelset.radius
             radius = radii[k] * (1.0 + (0.0 if axle.driven else trial[k, 4]))
             at = np.array([height, roll, trial[k, 1], radius])
-            wrench, loads = rail_wrench(axle.wheelset, vehicle.track, vehicle.contact, at, yaw)
+            wrench, loads = rails[k](at, yaw)
             axles.append(AxleRest(height, float(trial[k, 1]), roll, float(radius), wrench, loads))
             trial[k, 3:] = Rotation.from_euler("ZX", [yaw, roll]).as_rotvec()
         return trial, axles

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -46,8 +47,13 @@ def displacements(system: DynamicSystem) -> dict[tuple[str, str], int]:
 
     The body of a system with one body is "". Empty for systems whose names say nothing of it.
     """
+    return _places(system.state_names)
+
+
+@lru_cache(maxsize=64)
+def _places(names: tuple[str, ...]) -> dict[tuple[str, str], int]:
     found: dict[tuple[str, str], int] = {}
-    for index, name in enumerate(system.state_names):
+    for index, name in enumerate(names):
         match = _STATE.match(name)
         if match:
             found[match["body"] or "", match["what"]] = index
