@@ -95,7 +95,9 @@ def test_a_flange_climbs_above_nadals_limit(friction):
     The flank of S1002 has 70 degrees. The right wheel, on its tread, slips sideways and adds mu
     times its load to the push: at the limit push = (Nadal - mu) load/2. Nadal's friction points
     straight up the flank; here slip is never quite full and some of it is along the rail, so his
-    limit is a lower one, reached from above as the angle of attack grows.
+    limit is a lower one, reached from above as the angle of attack grows. With the normal force
+    that is a gradient: where it jumps from place to place the wheel hops on the flank, and when
+    it climbs is chance within some per cent.
     """
     tangent = np.tan(np.radians(70.0))
     nadal = (tangent - friction) / (1.0 + friction * tangent)
@@ -103,8 +105,9 @@ def test_a_flange_climbs_above_nadals_limit(friction):
     pushes = []
     for yaw in (0.03, 0.06):
         model = build(
-            push_rate=30e3, yaw=yaw, friction=friction, creep="shen-hedrick-elkins", gravity=0.0
-        )
+            push_rate=30e3, yaw=yaw, friction=friction, creep="shen-hedrick-elkins", gravity=0.0,
+            normal="energy",
+        )  # fmt: skip
         outcome, place, time = run(model[1], 4.0)
         assert outcome.ending is Ending.WHEEL_CLIMB
         assert place[2] > 0.014
