@@ -30,8 +30,9 @@ import numpy as np
 
 from exudyn_wheelset import catalogue
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.front.mode_plots import draw_root_locus
 from exudyn_wheelset.front.output import write_figure, write_json
-from exudyn_wheelset.front.plots import draw_root_locus, new_figure
+from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
     profiles_from,

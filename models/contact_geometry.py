@@ -23,8 +23,9 @@ from tqdm import tqdm
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.front.geometry_plots import draw_contact_geometry, draw_wheels_on_rails
 from exudyn_wheelset.front.output import write_figure, write_json
-from exudyn_wheelset.front.plots import draw_contact_geometry, draw_wheels_on_rails, new_figure
+from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import (
     add_profile_options,
     profiles_from,

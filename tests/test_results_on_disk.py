@@ -156,6 +156,20 @@ def test_a_full_disk_is_one_line(tmp_path, monkeypatch, kind):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_files_appear_whole_or_not_at_all(tmp_path):
+    path = tmp_path / "kept.txt"
+    path.write_text("before")
+
+    def fails(part):
+        part.write_text("half")
+        raise OSError("disk full")
+
+    with pytest.raises(FileError, match=r"kept\.txt cannot be written: disk full"):
+        write_atomically(path, fails)
+    assert path.read_text() == "before"
+    assert [file.name for file in tmp_path.iterdir()] == ["kept.txt"]
+
+
 def test_files_are_as_readable_as_others(tmp_path):
     plain, written = tmp_path / "plain", tmp_path / "written.csv"
     plain.write_text("x")

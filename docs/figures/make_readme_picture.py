@@ -15,8 +15,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from exudyn_wheelset.front.animation import Camera, render, show_rails
+from exudyn_wheelset.front.mode_plots import draw_root_locus
 from exudyn_wheelset.front.output import write_figure
-from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, draw_root_locus, tidy
+from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, tidy
 from exudyn_wheelset.stability.linear.linearisation import root_locus
 
 HERE = Path(__file__).parent

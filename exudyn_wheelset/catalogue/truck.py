@@ -28,7 +28,11 @@ import exudyn as exu
 import numpy as np
 from scipy.optimize import brentq
 
-from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, split_contact
+from exudyn_wheelset.catalogue.wheelset_on_frame import (
+    Suspension,
+    WheelsetOnFrame,
+    split_contact,
+)
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
@@ -204,6 +208,18 @@ class Truck:
                     preload=(0.0, 0.0, load),
                 )
         return made.finish()
+
+    def wheelset_alone(self) -> WheelsetOnFrame:
+        """One of the wheelsets on its primary springs to a frame that does not yield."""
+        return WheelsetOnFrame(
+            self.wheelset,
+            self.track,
+            self.primary,
+            self.axle_load,
+            self.contact,
+            self.driven,
+            name=f"wheelset of the {self.name}",
+        )
 
     def rest_height(self) -> float:
         """Height [m] of the axles above `radius` over the rail tops where the rails carry the load.

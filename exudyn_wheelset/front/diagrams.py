@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exudyn_wheelset.front.plots import new_figure
+from exudyn_wheelset.front.tables import print_rows
 from exudyn_wheelset.stability.hunting.branch_plot import draw_branch
 from exudyn_wheelset.stability.hunting.diagram import Diagram
 
@@ -115,5 +116,4 @@ def print_diagram(numbers: dict[str, Any]) -> None:
         rows.append((what, text or "nowhere are straight run and hunting both stable"))
     if "figure" in numbers:
         rows.append(("figure", numbers["figure"]))
-    for what, value in rows:
-        print(f"{what:38s}{value}")
+    print_rows(rows, 38)

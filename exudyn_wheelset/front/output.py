@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from exudyn_wheelset.results.files import plain, write_atomically
+from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.versions import versions
 
 
@@ -21,3 +22,21 @@ def write_json(path: str | Path, numbers: Mapping[str, Any], **about: Any) -> Pa
 def write_figure(path: str | Path, figure: Any) -> Path:
     """Save a matplotlib figure."""
     return write_atomically(path, lambda part: figure.savefig(part, dpi=130))
+
+
+def keep_runs(
+    stem: str | Path,
+    numbers: Mapping[str, Any],
+    motions: Sequence[Motion],
+    figure: Any,
+    **about: Any,
+) -> list[Path]:
+    """Keep what a script has computed: <stem>.json, <stem>_<speed>.csv of each motion, <stem>.png.
+
+    about: settings and parameters, for the record. Returns the files.
+    """
+    return [
+        write_json(f"{stem}.json", numbers, **about),
+        *(motion.write_csv(f"{stem}_{motion.speed:.2f}.csv") for motion in motions),
+        write_figure(f"{stem}.png", figure),
+    ]

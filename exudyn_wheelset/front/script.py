@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import logging
 import re
 import sys
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,13 +20,33 @@ from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.front.settings import load_settings
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.results.files import plain
+from exudyn_wheelset.results.motion import Motion
 
 DEFAULT_OUT = Path("runs") / "out"
 
 
-def script_parser(description: str, *, settings: bool = True) -> argparse.ArgumentParser:
-    """Argument parser with the options common to all model scripts."""
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C in a run whose results so far are kept; `numbers` are those of the script."""
+
+    def __init__(self, numbers: dict[str, Any]) -> None:
+        super().__init__("interrupted by the user")
+        self.numbers = numbers
+
+
+def finished(numbers: dict[str, Any], motions: Sequence[Motion]) -> dict[str, Any]:
+    """The numbers of a script, once all is kept; raises Interrupted if Ctrl-C ended a motion."""
+    if motions and motions[-1].outcome.ending is Ending.INTERRUPTED:
+        raise Interrupted(numbers)
+    return numbers
+
+
+def script_parser(description: str, *, settings: bool | Path = True) -> argparse.ArgumentParser:
+    """Argument parser with the options common to all model scripts.
+
+    settings: a file of solver settings to take by default; False for a script that needs none.
+    """
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.ArgumentDefaultsHelpFormatter
     )
@@ -34,21 +55,19 @@ def script_parser(description: str, *, settings: bool = True) -> argparse.Argume
         "--out", type=Path, default=DEFAULT_OUT, help="directory for figures and data"
     )
     if settings:
+        default = settings if isinstance(settings, Path) else None
         parser.add_argument(
-            "--settings", type=Path, default=None, help="Exudyn solver settings file (JSON)"
+            "--settings", type=Path, default=default, help="Exudyn solver settings file (JSON)"
         )
     return parser
 
 
-def get_ready(
-    arguments: argparse.Namespace, default: Path | None = None
-) -> exu.SimulationSettings | None:
-    """Load the settings of --settings, or of the file `default`, and compile the kernels.
+def get_ready(arguments: argparse.Namespace) -> exu.SimulationSettings | None:
+    """Load the settings of --settings, None where it names no file, and compile the kernels.
 
-    None where neither names a file. Without --json it says how long the kernels took. Raises
-    SettingsError for a file that is wrong.
+    Without --json it says how long the kernels took. Raises SettingsError for a file that is wrong.
     """
-    path = getattr(arguments, "settings", None) or default
+    path = getattr(arguments, "settings", None)
     settings = None if path is None else load_settings(path)
     seconds = warm_up()
     if not arguments.json:
@@ -71,14 +90,15 @@ class ScriptProfiles:
     inclination: float | None
 
     @property
+    def changes(self) -> dict[str, Any]:
+        """Those that are given, by name: what `catalogue.Changes` and the makers of pairs take."""
+        return {name: value for name, value in vars(self).items() if value is not None}
+
+    @property
     def track(self) -> Track:
         """The track of these options; what is None has the default of `Track` (rail: UIC60)."""
-        given = {
-            name: value
-            for name in ("gauge", "gauge_depth", "inclination")
-            if (value := getattr(self, name)) is not None
-        }
-        return Track(self.rail if self.rail is not None else "UIC60", **given)
+        given = {name: value for name, value in self.changes.items() if name != "wheel"}
+        return Track(**{"rail": "UIC60", **given})
 
 
 def add_profile_options(
@@ -156,14 +176,15 @@ def _smoothing(text: str) -> float | str:
 def _shown_by(prog: str, others: Callable[..., None]) -> Callable[..., None]:
     """What shows a warning of this package as one line of the script, and `others` as they do.
 
-    A line of the script that warns again, of another speed, is heard once.
+    What was warned of once, at another speed or by a later analysis, is not said again.
     """
     heard = set()
 
     def show(message: Warning | str, category: type[Warning], *place: Any, **more: Any) -> None:
         if issubclass(category, WheelsetWarning):
-            if place not in heard:
-                heard.add(place)
+            about = getattr(message, "about", "") or place
+            if about not in heard:
+                heard.add(about)
                 print(f"{prog}: {message}", file=sys.stderr)
         else:
             others(message, category, *place, **more)
@@ -183,6 +204,11 @@ def run_script(
     one JSON object.
     """
     arguments = parser.parse_args(argv)
+    log = logging.getLogger("exudyn_wheelset")
+    level = log.level
+    if arguments.json:
+        # Only numbers on one stream and errors on the other: no word of kernels being compiled.
+        log.setLevel(logging.ERROR)
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _shown_by(parser.prog, warnings.showwarning)
@@ -190,28 +216,15 @@ def run_script(
     except WheelsetError as error:
         print(f"{parser.prog}: {error}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as interrupt:
+        if isinstance(interrupt, Interrupted) and show is not None and not arguments.json:
+            show(interrupt.numbers)
         print(f"{parser.prog}: interrupted; finished results are kept", file=sys.stderr)
         return 130
+    finally:
+        log.setLevel(level)
     if arguments.json:
         print(json.dumps(numbers, default=plain))
     elif show is not None:
         show(numbers)
     return 0
-
-
-def print_growth(rows: Sequence[Mapping[str, Any]]) -> None:
-    """Print growth rates and frequencies of motions beside those of the eigenvalues.
-
-    rows: speed, what `growth_beside` gives, maximum_y [m] and event of each motion.
-    """
-    print(f"{'speed':>8s}{'growth [1/s]':>24s}{'frequency [Hz]':>24s}{'max |y|':>10s}")
-    print(f"{'[m/s]':>8s}" + 2 * f"{'motion':>12s}{'eigenvalue':>12s}" + f"{'[mm]':>10s}")
-    for row in rows:
-        pairs = ""
-        for what in ("growth_rate", "frequency"):
-            found = row[f"{what}_simulated"]
-            pairs += f"{'-':>12s}" if found is None else f"{found:12.4f}"
-            pairs += f"{row[f'{what}_eigenvalue']:12.4f}"
-        event = f"  {row['event']}" if row["event"] else ""
-        print(f"{row['speed']:8.2f}{pairs}{row['maximum_y'] * 1e3:10.3f}{event}")

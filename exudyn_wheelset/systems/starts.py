@@ -50,6 +50,16 @@ def wheel_loads(system: ExudynSystem, items: WheelsetItems, state: Array) -> Arr
     return items.contact.history(system.mbs, np.zeros(1), *rows)[0, :, _LOAD]
 
 
+def steady_wheel_loads(system: ExudynSystem, speed: float) -> dict[tuple[str, str], float]:
+    """Vertical forces [N] of the rails in steady running, by wheelset and side."""
+    state = system.equilibrium(speed)
+    return {
+        (items.name, side): float(load)
+        for items in system.wheelsets
+        for side, load in zip(("left", "right"), wheel_loads(system, items, state), strict=True)
+    }
+
+
 def _carry(
     system: ExudynSystem,
     items: WheelsetItems,

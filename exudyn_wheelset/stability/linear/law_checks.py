@@ -43,6 +43,17 @@ EXACT_LAWS = ("exact-table", "exact")
 LEAST_SLOPE = 0.05
 
 
+class LawWarning(WheelsetWarning):
+    """A creep law that the linear equations do not describe well.
+
+    about: which system, law and fault, in words without numbers: a script says it once.
+    """
+
+    def __init__(self, message: str, about: str) -> None:
+        super().__init__(message)
+        self.about = about
+
+
 @dataclass(frozen=True)
 class LawCheck:
     """What was measured of the creep law about one equilibrium.
@@ -172,9 +183,10 @@ def warn_of_law(name: str, checks: Sequence[tuple[float, LawCheck]], level: int 
         return
     speed, check = max(checks, key=lambda entry: entry[1].additivity)
     steep_speed, steep = max(checks, key=lambda entry: abs((entry[1].slope_ratio or 1.0) - 1.0))
-    for message in (
-        check.additivity_warning(name, speed),
-        steep.slope_warning(name, steep_speed),
+    for fault, message in (
+        ("not linear", check.additivity_warning(name, speed)),
+        ("another slope", steep.slope_warning(name, steep_speed)),
     ):
         if message:
-            warnings.warn(message, WheelsetWarning, stacklevel=level)
+            warning = LawWarning(message, about=f"{name}, {check.law}: {fault}")
+            warnings.warn(warning, stacklevel=level)

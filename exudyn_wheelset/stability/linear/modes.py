@@ -18,7 +18,7 @@ at s = y/roll: lower sway if it lies below, upper sway above.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -111,6 +111,18 @@ def truck_motion(system: DynamicSystem, mode: Array) -> dict[str, float]:
             if (body, what) in places
         )
         for truck, wheelsets in system.trucks.items()
+    }
+
+
+def lateral_shape(state_names: Sequence[str], mode: Array) -> dict[str, dict[str, float]]:
+    """Size [mm, mrad] and phase [deg] of the lateral motions y, yaw and roll in a mode (n,)."""
+    return {
+        name.split(" [")[0]: {
+            "size": float(1e3 * abs(value)),
+            "phase": float(np.degrees(np.angle(value))),
+        }
+        for name, value in zip(state_names, mode, strict=True)
+        if name.split(": ")[-1] in ("y [m]", "yaw [rad]", "roll [rad]")
     }
 
 
