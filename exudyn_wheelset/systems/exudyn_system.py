@@ -25,6 +25,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.systems.axisymmetry import check_spin, inverse_mass
 from exudyn_wheelset.systems.checks import check_arguments, check_states
 from exudyn_wheelset.systems.described import described
 from exudyn_wheelset.systems.exudyn_layout import lay_out
@@ -38,8 +39,6 @@ from exudyn_wheelset.systems.reduction import expand_state, state_rate
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
-# Turns a spinning body far enough for what is fixed beside its axle to be seen [rad].
-SPIN_ANGLE = 1.0
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
 FIRST_SPEED = 10.0
 
@@ -151,8 +150,10 @@ class ExudynSystem(DynamicSystem):
         self.yaw_indices = tuple(place[2] for place in places if place[0] >= 0)
         # Lateral and vertical displacement and roll of each wheelset.
         self.pose_indices = tuple((place[0], place[1], place[3]) for place in places)
-        self._check_mass_matrix()
-        self._check_spin()
+        self._inverse_mass, self._constant_mass = inverse_mass(
+            name, layout, self.scales, self.state_names, self._mass_matrix
+        )
+        check_spin(name, layout, self.scales, self.state_names, self._force)
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -322,79 +323,19 @@ class ExudynSystem(DynamicSystem):
         for contact in self.contacts:
             contact.set_speed(speed)
 
-    def _check_mass_matrix(self) -> None:
-        """Keep the inverse of the mass matrix if it is the same at some distance."""
-        matrices = []
-        for factor in (0.0, 20.0, -37.0):
-            shifted = self.reduce(self._coordinates * 0.0, self._velocities * 0.0)
-            shifted[: self._positions] += factor * self.scales[: self._positions]
-            self._data.SetODE2Coordinates(self.expand(shifted)[0])
-            self._solver.ComputeMassMatrix(self.mbs)
-            matrices.append(np.array(self._solver.GetSystemMassMatrix()))
-        self._check_axisymmetry(matrices[0])
-        size = np.abs(matrices[0]).max()
-        self._constant_mass = all(
-            np.allclose(matrix, matrices[0], rtol=0.0, atol=1e-12 * size) for matrix in matrices[1:]
-        )
-        try:
-            self._inverse_mass = np.linalg.inv(matrices[0])
-        except np.linalg.LinAlgError:
-            massless = [
-                self.state_names[self._positions + index]
-                for index in np.flatnonzero(np.abs(matrices[0]).sum(axis=1) == 0.0)
-            ]
-            raise AnalysisError(
-                f"{self.name}: the mass matrix is singular (without mass: "
-                f"{', '.join(massless) or 'a combination of coordinates'}); give it a mass"
-            ) from None
+    def _mass_matrix(self, coordinates: Array) -> Array:
+        self._data.SetODE2Coordinates(coordinates)
+        self._solver.ComputeMassMatrix(self.mbs)
+        return np.array(self._solver.GetSystemMassMatrix())
 
-    def _check_axisymmetry(self, mass: Array) -> None:
-        """Spinning bodies must look the same at every spin angle; AnalysisError otherwise."""
-        for first, _, spins in self._rotations:
-            inertia = mass[first : first + 3, first : first + 3]
-            size = abs(inertia[0, 0])
-            if spins and max(abs(inertia[0, 0] - inertia[2, 2]), abs(inertia[0, 2])) > 1e-6 * size:
-                raise AnalysisError(
-                    f"{self.name}: a body that spins about y has the inertia {inertia[0, 0]:g} "
-                    f"about x, but {inertia[2, 2]:g} kg m^2 about z: its equations then change "
-                    "with the spin angle and there is no steady run; give it Ix = Iz"
-                )
-
-    def _check_spin(self) -> None:
-        """Forces on spinning bodies must not know the spin angle; AnalysisError otherwise.
-
-        At rest, all bodies a little off their places, each spinning body is turned by SPIN_ANGLE:
-        its force and, in axes that do not turn, its moment must stay what they were.
-        """
-        data, solver, mbs = self._data, self._solver, self.mbs
-        shifted = np.zeros(self.size)
-        shifted[: self._positions] = 0.1 * self.scales[: self._positions]
-        for first, yaw, spins in self._rotations:
-            if not spins:
-                continue
-            shifted[yaw : yaw + 2] = 0.0
-            coordinates, velocities, first_order = self.layout.expand(shifted)
-            forces = []
-            for angle in (0.0, SPIN_ANGLE):
-                coordinates[first + 1] += angle
-                data.SetODE2Coordinates(coordinates)
-                data.SetODE2Coordinates_t(velocities)
-                if self._order1:
-                    data.SetODE1Coordinates(first_order)
-                solver.ComputeODE2RHS(mbs)
-                force = np.array(solver.GetSystemResidual())[: self._order2]
-                c, s = np.cos(angle), np.sin(angle)
-                x, z = force[first], force[first + 2]
-                force[first], force[first + 2] = c * x + s * z, c * z - s * x
-                forces.append(force)
-            change = float(np.abs(forces[1] - forces[0]).max())
-            if change > 1e-6 * np.abs(forces[0]).max():
-                name = self.state_names[yaw].rpartition(": ")[0] or self.name
-                raise AnalysisError(
-                    f"{self.name}: forces change by {change:.3g} N (or N m) when {name!r}, which "
-                    "spins, is turned about its axle, so there is no steady run: attach springs "
-                    "and dampers on the axle itself, at local positions (0, y, 0)"
-                )
+    def _force(self, coordinates: Array, velocities: Array, first_order: Array) -> Array:
+        """Generalised forces (nq,) at coordinates and velocities (nq,), (nq,) and states (n1,)."""
+        self._data.SetODE2Coordinates(coordinates)
+        self._data.SetODE2Coordinates_t(velocities)
+        if self._order1:
+            self._data.SetODE1Coordinates(first_order)
+        self._solver.ComputeODE2RHS(self.mbs)
+        return np.array(self._solver.GetSystemResidual())[: self._order2]
 
     def use_speed(self, speed: float) -> None:
         """Set the forward speed [m/s] in the model."""
