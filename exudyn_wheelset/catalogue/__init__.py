@@ -11,8 +11,10 @@ from exudyn_wheelset.catalogue.by_name import CATALOGUE, Entry, entry, vehicle, 
 from exudyn_wheelset.catalogue.changes import Changes
 from exudyn_wheelset.catalogue.cooperrider_bogie_3d import cooperrider_bogie_3d
 from exudyn_wheelset.catalogue.dtu_car import dtu_car
+from exudyn_wheelset.catalogue.freight_car import freight_car
 from exudyn_wheelset.catalogue.manchester_coach import manchester_coach
 from exudyn_wheelset.catalogue.three_axle_truck import three_axle_truck
+from exudyn_wheelset.catalogue.two_axle_wagon import two_axle_wagon
 
 __all__ = [
     "CATALOGUE",
@@ -21,8 +23,10 @@ __all__ = [
     "cooperrider_bogie_3d",
     "dtu_car",
     "entry",
+    "freight_car",
     "manchester_coach",
     "three_axle_truck",
+    "two_axle_wagon",
     "vehicle",
     "vehicle_system",
 ]

@@ -20,10 +20,12 @@ from exudyn_wheelset.catalogue.changes import Changes
 from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie, cooperrider_system
 from exudyn_wheelset.catalogue.cooperrider_bogie_3d import cooperrider_bogie_3d
 from exudyn_wheelset.catalogue.dtu_car import dtu_car
+from exudyn_wheelset.catalogue.freight_car import freight_car
 from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
 from exudyn_wheelset.catalogue.manchester_coach import manchester_coach
 from exudyn_wheelset.catalogue.three_axle_truck import three_axle_truck
 from exudyn_wheelset.catalogue.truck import Truck, dtu_truck
+from exudyn_wheelset.catalogue.two_axle_wagon import two_axle_wagon
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
@@ -265,5 +267,15 @@ CATALOGUE: dict[str, Entry] = {
         "a truck with three axles below a body that runs straight, S1002 on UIC60 1:40",
         (20.0, 200.0),
         three_axle_truck,
+    ),
+    "freight_car": Entry(
+        "a freight car on two three-piece trucks (loaded=False: empty), AAR 1:20 on UIC60 1:40",
+        (10.0, 80.0),
+        freight_car,
+    ),
+    "two_axle_wagon": Entry(
+        "a wagon with leaf springs on links (loaded=False: empty), S1002 on UIC60 1:40",
+        (8.0, 80.0),
+        two_axle_wagon,
     ),
 }

@@ -26,7 +26,7 @@ EMPTY_BODY = (11.0e3, (2.0e4, 2.2e5, 2.2e5), 1.40)
 SUSPENSION = LinkSuspension(
     stiffness=1.2e6,
     length=(0.40, 0.25),
-    friction=(0.06, 0.04),
+    friction=(0.10, 0.06),
     leaf_friction=0.07,
 )
 # Axle guards: free way [m], then 2 kN/mm and more.
@@ -61,7 +61,5 @@ def two_axle_wagon(loaded: bool = True, **changes: Any) -> Vehicle:
                 ("lateral", (0, 1, 0), LATERAL_PLAY),
             ):
                 guard = BumpStop(direction, table=GUARD, play=play)
-                wagon.connect(
-                    guard, axle, body, at=place, name=f"{which} {side} {word} guard"
-                )
+                wagon.connect(guard, axle, body, at=place, name=f"{which} {side} {word} guard")
     return wagon.finish()

@@ -25,6 +25,7 @@ from exudyn_wheelset.stability.linear.modes import (
     is_lateral,
     mode_name,
 )
+from exudyn_wheelset.stability.linear.neutral import neutral_name, separated
 from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, oscillates
 from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
 
@@ -74,8 +75,10 @@ class Linearisation:
         """Name of each mode (n) by what moves in it."""
         frequencies = np.abs(self.eigenvalues.imag) / (2.0 * np.pi)
         return tuple(
-            mode_name(self.system, mode, frequency)
-            for mode, frequency in zip(self.eigenvectors.T, frequencies, strict=True)
+            neutral_name(self.system, value, mode) or mode_name(self.system, mode, frequency)
+            for value, mode, frequency in zip(
+                self.eigenvalues, self.eigenvectors.T, frequencies, strict=True
+            )
         )
 
 
@@ -118,7 +121,7 @@ def linearised(system: DynamicSystem, speed: float, guess: Array | None = None) 
     scales = system.scales
     values, vectors = np.linalg.eig(jacobian * scales[None, :] / scales[:, None])
     order = np.argsort(-values.real, kind="stable")
-    modes = (scales[:, None] * vectors)[:, order]
+    modes = separated(system, values[order], (scales[:, None] * vectors)[:, order])
     return Linearisation(
         speed=float(speed),
         state=state,

@@ -43,7 +43,7 @@ class CentrePlate(Element):
 
     radius: float
     friction: float
-    stiffness: float = 1.0e9
+    stiffness: float = 3.0e9
     play: float = 3.0e-3
     stop: float = 5.0e7
     presliding: float = PRESLIDING
