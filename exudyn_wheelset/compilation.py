@@ -27,6 +27,8 @@ from typing import Any
 
 import numba
 from numba.core import caching, config, event
+from numba.core.cpu import CPUTargetOptions
+from numba.core.options import _mapping
 from numba.misc.appdirs import AppDirs
 
 from exudyn_wheelset.locking import FileLock
@@ -37,6 +39,10 @@ PACKAGE = Path(__file__).parent
 AS_REAL_NUMBERS = {"contract", "reassoc", "nsz", "arcp"}
 # Longer than the largest kernel takes to compile on a busy machine [s]; then it is compiled twice.
 PATIENCE = 300.0
+# Option `noalias`: a promise that no two arrays among the arguments share memory, without which a
+# loop that reads one by computed places and writes another is not vectorised. numba makes it for
+# its own loops only, and has no option for it.
+CPUTargetOptions.noalias = _mapping("noalias")
 _log = logging.getLogger(__name__)
 _IMPORT = re.compile(
     rf"^(?:from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({PACKAGE.name}[\w.]*))",

@@ -38,15 +38,14 @@ PORTIONS = 0.5 * _WEIGHTS
 
 @compiled
 def fill(load, modulus):
-    """Fill what a LOAD is, from its place's half curvature `along`, log_b and t."""
-    b = math.exp(load.log_b)
+    """Fill what a LOAD is, from its place's half curvature `along`, b and t."""
+    b = load.b
     alpha, beta, gamma, alpha1, beta1, gamma1, alpha2, beta2 = shape_and_slopes(load.t)
     ratio = math.exp(load.t)
     part = ratio / (1.0 + ratio)
     square = load.along * b * b
     width = square * ratio
     approach = square * (1.0 + ratio) * math.exp(gamma - 2.0 * beta)
-    load.b = b
     load.a = b * math.exp(alpha - beta)
     load.lateral = load.along * ratio
     load.approach = approach

@@ -34,7 +34,7 @@ MOST_LOBES = 4
 # while that one comes or goes, and while lobes merge, up to three sets are patches.
 MOST_ELLIPSES = MOST_LOBES + 1
 MOST_PATCHES = 2 * MOST_LOBES + MOST_ELLIPSES - 1
-GAUSS_COUNT = 12
+MOST_LINES = 640
 STRIPS_A_LOBE = 20
 MOST_NODES = 320
 ENERGY = NORMAL_MODELS["energy"]
@@ -96,15 +96,21 @@ CURVE = _record(
 BLOCK = _record(("offset", "i8"), ("count", "i8"))
 NODE_ARC, NODE_LATERAL, NODE_RADIUS, NODE_SLOPE, NODE_FLATNESS = range(5)
 GRID_HEIGHT, GRID_ARC = range(2)
+# Of a line of force: place, tangent and curvature of the rail; then what is sampled on it:
+# penetration [m], arc length of the wheel [m], and what gap_spline.py makes of them.
+LINE_Y, LINE_Z, LINE_TANGENT_Y, LINE_TANGENT_Z, LINE_BEND = range(5)
+GAP_DEPTH, GAP_ARC, GAP_COEFFICIENT, GAP_FIRST, GAP_SECOND, GAP_THIRD = range(6)
 # tape [m]: tape circle from the axle's centre; radius [m] there; datum [m]: lateral position of
 # the rail's highest point; grid_start, grid_step [m]: lateral positions of the grid; rail_low,
-# rail_high [m]: lateral positions between which the rail carries.
+# rail_high [m]: lateral positions between which the rail carries; lines: of force, at places of
+# the rail from line_start [m] on in steps of line_spacing [m].
 SIDE = _record(
     ("radius", "f8"), ("tape", "f8"), ("datum", "f8"),
     ("wheel", CURVE), ("rail", CURVE),
     ("nodes", BLOCK), ("fine_nodes", BLOCK),
     ("grid", BLOCK), ("grid_start", "f8"), ("grid_step", "f8"),
     ("rail_low", "f8"), ("rail_high", "f8"),
+    ("lines", BLOCK), ("line_start", "f8"), ("line_spacing", "f8"),
 )  # fmt: skip
 HEADER = 2 * SIDE.itemsize // 8
 
@@ -125,11 +131,13 @@ ZONE = _numbers("total", "arc", "foot", "normal_y", "normal_z")
 # arc: wheel arc length of the maximum, foot: rail arc length [m]; curvature: 2 B [1/m]; left,
 # right: ends of the territory in wheel arc; separation from the next lobe, 0 to 1; sunk [m]: in
 # the fields of the others; own: moments of its zone, merged: as a part of a merged patch whose
-# greatest penetration is merged_depth.
+# greatest penetration is merged_depth; node of the scan next to it; range of lines around it, its
+# first and last cell and the ends of its zone in numbers of lines (gap_spline.py).
 LOBE = _record(
     ("arc", "f8"), ("foot", "f8"), ("penetration", "f8"), ("curvature", "f8"),
     ("left", "f8"), ("right", "f8"), ("separation", "f8"), ("sunk", "f8"),
     ("own", ZONE), ("merged", ZONE), ("merged_depth", "f8"),
+    ("node", "i8"), ("range", "i8"), ("low", "i8"), ("high", "i8"), ("begin", "f8"), ("end", "f8"),
 )  # fmt: skip
 # Place in wheel and rail arc, width, half length along x, penetration along the normal [m]; peak
 # pressure [Pa]; half curvature along x [1/m]; normal from rail into wheel;
@@ -149,19 +157,21 @@ SHARE = _record(
 )  # fmt: skip
 _SHAPES: dict[str, tuple[int, ...]] = {"float": (), "tuple[float, float, float]": (3,)}
 PATCH = _record(*((field.name, "f8", _SHAPES[str(field.type)]) for field in fields(Patch)))
-# place: rail arc length of the centre [m], log_b: ln of the lateral semi-axis in m, t = ln(B/A):
-# what the energy is stationary in. Averages of the penetration over the load and derivatives by
-# place and by ln b; what `ellipse` says; leads: of the wheel's arc over the rail's at the points.
+# place: rail arc length of the centre [m], b: lateral semi-axis [m], t = ln(B/A): what the energy
+# is stationary in. Averages of the penetration over the load and derivatives by place and by ln b
+# (gap_spline.py); what `fill` says (ellipsoids.py); low, high: first and last cell of its range.
 LOAD = _record(
-    ("place", "f8"), ("log_b", "f8"), ("t", "f8"),
-    ("mean", "f8"), ("slope", "f8"), ("spread", "f8"),
+    ("place", "f8"), ("b", "f8"), ("t", "f8"),
+    ("average", "f8"), ("slope", "f8"), ("spread", "f8"),
     ("bend", "f8"), ("slope_spread", "f8"), ("spread_spread", "f8"),
     ("along", "f8"), ("relative", "f8"), ("force", "f8"), ("lateral", "f8"),
-    ("a", "f8"), ("b", "f8"), ("approach", "f8"), ("width", "f8"), ("own", "f8"), ("work", "f8"),
+    ("a", "f8"), ("approach", "f8"), ("width", "f8"), ("own", "f8"), ("work", "f8"),
     ("force_by_t", "f8"), ("force_by_tt", "f8"), ("own_by_t", "f8"),
     ("ratio_by_t", "f8"), ("ratio_by_tt", "f8"),
-    ("sunk", "f8"), ("lobe", "i8"), ("leads", "f8", (GAUSS_COUNT,)),
+    ("sunk", "f8"), ("lobe", "i8"), ("low", "i8"), ("high", "i8"),
 )  # fmt: skip
+# First and last node of a range in which the penetration has been sampled.
+RANGE = _record(("first", "i8"), ("last", "i8"))
 # A set of loads: how many, the energy [J] and the weight of its forces.
 SET = _record(("count", "i8"), ("energy", "f8"), ("weight", "f8"))
 # Lines of force of the separation x of two lobes: rail place, wheel arc and dx/dp.
@@ -177,6 +187,8 @@ WORK = _record(
     ("loads", LOAD, (3, MOST_ELLIPSES)), ("sets", SET, (3,)), ("kept", LOAD, (MOST_ELLIPSES,)),
     ("coupling", COUPLING), ("merging", LINE, (3,)), ("wrenches", "f8", (2, 5)),
     ("matrix", "f8", (3 * MOST_ELLIPSES, 3 * MOST_ELLIPSES + 1)),
+    ("first_node", "i8"), ("final_node", "i8"), ("ranges", RANGE, (MOST_LOBES,)),
+    ("gap", "f8", (6, MOST_LINES)), ("parts", "f8", (2, MOST_LINES)),
 )  # fmt: skip
 RESULT = _record(
     ("force", "f8", (3,)), ("moment", "f8", (3,)),

@@ -1,6 +1,6 @@
 """Patches of one wheel by the stored energy: each load's wrench, ellipse and place.
 
-The rails push the wheel along the lines of a load's Gauss points (gap.py), which is a wrench with
+The rails push the wheel along the lines of the grid that a load covers (gap.py), a wrench with
 a force F in the y-z plane and a moment M about the axle's centre. It is that of |F| along n = F/|F|
 at a point of its central axis and of a moment M.n about n, the load's twist: with yaw the lines of
 a throat or flange patch lie at different leads and point different ways. The point is taken where
@@ -16,29 +16,29 @@ import math
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
-from exudyn_wheelset.contact.energy import POINTS, WEIGHTS
-from exudyn_wheelset.contact.gap import gap_on_normal, line_of_force
-from exudyn_wheelset.contact.layout import GAUSS_COUNT
+from exudyn_wheelset.contact.gap import gap_on_normal, line_of_force, push_on_lines
+from exudyn_wheelset.contact.gap_spline import line_weights
+from exudyn_wheelset.contact.layout import GAP_ARC
 from exudyn_wheelset.contact.loads import side_loads
 from exudyn_wheelset.contact.locus import wheel_point
 
 
 @compiled
-def _wrench(table, side, load, axle, wrench):
-    """Fill force (y, z) and moment of a load; returns the wheel's arc in its middle."""
-    b = math.exp(load.log_b)
-    wrench[:] = 0.0
-    for i in range(GAUSS_COUNT):
-        place = load.place + b * POINTS[i]
-        fy, fz, mx, my, mz = line_of_force(table, side, place, place + load.leads[i], axle)
-        weight = WEIGHTS[i] * load.force
-        wrench[0] += weight * fy
-        wrench[1] += weight * fz
-        wrench[2] += weight * mx
-        wrench[3] += weight * my
-        wrench[4] += weight * mz
-    middle = GAUSS_COUNT // 2
-    return load.place + 0.5 * (load.leads[middle - 1] + load.leads[middle])
+def _wrench(table, side, load, axle, work, wrench):
+    """Fill force (y, z) and moment of a load."""
+    first, count = line_weights(load, side.line_start, 1.0 / side.line_spacing, work)
+    parts = work.parts[0, :count]
+    push_on_lines(table, side, first, parts, axle, work.gap, wrench)
+    wrench *= load.force
+
+
+@compiled
+def _arc_in_the_middle(side, load, gap):
+    """The wheel's arc length at the load's place."""
+    at = (load.place - side.line_start) / side.line_spacing
+    k = int(at)
+    arcs = gap[GAP_ARC]
+    return arcs[k] + (at - k) * (arcs[k + 1] - arcs[k])
 
 
 @compiled
@@ -62,13 +62,13 @@ def _fill_patch(table, side, load, arc, weight, wrench, axle, patch, share):
     patch.twist = my * ny + mz * nz
     patch.a = load.a
     patch.b = weight * load.b
-    patch.penetration = load.mean + 0.2 * load.width
+    patch.penetration = load.average + 0.2 * load.width
     patch.position[0] = x
     patch.position[1] = y + along * ny
     patch.position[2] = z + along * nz
     patch.normal[1] = ny
     patch.normal[2] = nz
-    patch.energy = weight * load.force * max(load.mean - load.work - 0.5 * load.sunk, 0.0)
+    patch.energy = weight * load.force * max(load.average - load.work - 0.5 * load.sunk, 0.0)
     patch.peak_pressure = 1.5 * force / (math.pi * load.a * weight * load.b)
     share.own.force = force / weight
     share.own.a = load.a
@@ -110,7 +110,7 @@ def load_patches(table, side, found, axle, material, work, patches):
         share += max(sets[m].weight, 0.0)
         if sets[m].weight < 0.0:
             for k in range(sets[m].count):
-                _wrench(table, side, work.loads[m, k], axle, wrench)
+                _wrench(table, side, work.loads[m, k], axle, work, wrench)
                 spare += sets[m].weight * wrench
     kept = 0
     total = 0.0
@@ -123,7 +123,8 @@ def load_patches(table, side, found, axle, material, work, patches):
             forces += work.loads[m, k].force
         for k in range(sets[m].count):
             load = work.loads[m, k]
-            arc = _wrench(table, side, load, axle, wrench)
+            _wrench(table, side, load, axle, work, wrench)
+            arc = _arc_in_the_middle(side, load, work.gap)
             wrench *= weight
             wrench += weight / share * load.force / forces * spare
             _fill_patch(

@@ -10,15 +10,19 @@ import math
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.ellipsoids import field, fill
-from exudyn_wheelset.contact.energy import MISFIT, stationary
+from exudyn_wheelset.contact.energy import MISFIT, look_along, stationary
 from exudyn_wheelset.contact.gap import gap_on_normal
+from exudyn_wheelset.contact.gap_spline import LEVEL, primitives_at, sample_lobes, spline_depth
 from exudyn_wheelset.contact.layout import MOST_ELLIPSES
-from exudyn_wheelset.contact.search import zone_end
 
+# A parabola is so much wider at zero than at the level where a lobe's zone ends.
+TO_ZERO = 1.0 / math.sqrt(1.0 - LEVEL)
 # A lobe that a first estimate puts this far below the others' field is not tried.
 SURELY_SUNK = 0.7
 # A second load that gains less has not been found where it is.
 NO_GAIN = 1.0e-5
+# p is sampled to where it has fallen to this part of the depth.
+NEAR = 0.2
 # Two lobes are one, equation (3), while the valley between them is less than MERGED_FROM of their
 # depth deep, and two from MERGED_UP_TO on.
 MERGED_FROM, MERGED_UP_TO = 0.03, 0.2
@@ -32,43 +36,76 @@ STEEPNESS = (WHOLE + BACK) / (WHOLE + BACK - STEEP - NOTHING)
 def _begin(table, side, load, lobe, place, b, depth, modulus):
     """Guess of a load at a place of the rail, as wide as b, `depth` deep in the middle."""
     load.place = place
-    load.log_b = math.log(b)
-    load.leads[:] = lobe.arc - lobe.foot
-    load.along = 0.5 / side.radius
-    load.relative = 0.0
+    load.b = b
+    load.low = lobe.low
+    load.high = lobe.high
+    look_along(table, side, load)
     load.t = math.log(0.5 * depth / (b * b * load.along))
     fill(load, modulus)
 
 
 @compiled
-def _ends(table, side, lobe, axle):
-    """Lengths of the lobe to either side, to where it ends or the next one begins."""
-    left = lobe.arc - zone_end(table, side, lobe, lobe.left, 0.0, axle)
-    right = zone_end(table, side, lobe, lobe.right, 0.0, axle) - lobe.arc
+def _ends(side, lobe):
+    """Lengths of the lobe to either side, to where p is zero or the next one begins."""
+    foot = (lobe.foot - side.line_start) / side.line_spacing
+    left = side.line_spacing * TO_ZERO * (foot - lobe.begin)
+    right = side.line_spacing * TO_ZERO * (lobe.end - foot)
     return max(left, 1.0e-6), max(right, 1.0e-6)
 
 
 @compiled
-def _begin_lobes(table, side, lobes, found, loads, modulus, axle):
+def _begin_lobe(table, side, load, lobe, begin, end, modulus, work):
+    """Guess from area and centroid of p between two places: Hertz's for such a parabola."""
+    h = side.line_spacing
+    depth = lobe.penetration
+    lateral = 0.5 * max(lobe.curvature, 0.5)
+    load.place = lobe.foot
+    load.low = lobe.low
+    load.high = lobe.high
+    level = LEVEL * depth
+    edge = max(spline_depth(work.gap, lobe, begin), spline_depth(work.gap, lobe, end))
+    if edge > 1.5 * level:
+        # Cut off by a valley: as wide as the lobe's narrower side says.
+        foot = (lobe.foot - side.line_start) / h
+        width = max(0.75 * h * min(end - foot, foot - begin), 1.0e-6)
+        lateral = 0.5 * depth / (width * width)
+    elif end - begin > 4.0:
+        _, i0, j0, _ = primitives_at(work.gap, lobe, begin)
+        _, i1, j1, _ = primitives_at(work.gap, lobe, end)
+        length = end - begin
+        area = i1 - i0 - level * length
+        moment = j1 - j0 - i0 * length - 0.5 * level * length * length
+        load.place = side.line_start + h * (end - moment / area)
+        area *= h
+        over = depth - level
+        lateral = 16.0 / 9.0 * over * over * over / (area * area)
+    look_along(table, side, load)
+    load.t = math.log(lateral / load.along)
+    load.b = 1.0
+    fill(load, modulus)
+    load.b = math.sqrt(depth / load.approach)
+
+
+@compiled
+def _begin_lobes(table, side, lobes, found, loads, modulus, work):
     """A guess for each lobe that reaches deeper than the field of deeper ones; their number."""
-    count = 0
     for k in range(found):
         lobe = lobes[k]
-        left, right = _ends(table, side, lobe, axle)
-        b = 0.75 * min(left, right)
-        _begin(table, side, loads[count], lobe, lobe.foot, b, lobe.penetration, modulus)
-        loads[count].lobe = k
-        count += 1
+        _begin_lobe(table, side, loads[k], lobe, lobe.begin, lobe.end, modulus, work)
+        loads[k].lobe = k
+        loads[k].sunk = 0.0
+    if found == 1:
+        return 1
+    for k in range(found):
+        fill(loads[k], modulus)
+    for k in range(found):
+        lobe = lobes[k]
+        for j in range(found):
+            if lobes[j].penetration > lobe.penetration:
+                loads[k].sunk += field(lobe.foot, loads[j], modulus)
     kept = 0
-    for k in range(count):
-        lobe = lobes[loads[k].lobe]
-        sunk = 0.0
-        for j in range(count):
-            if lobes[loads[j].lobe].penetration > lobe.penetration:
-                sunk += field(lobe.foot, loads[j], modulus)
-        loads[k].sunk = sunk
-    for k in range(count):
-        if lobes[loads[k].lobe].penetration > SURELY_SUNK * loads[k].sunk:
+    for k in range(found):
+        if lobes[k].penetration > SURELY_SUNK * loads[k].sunk:
             if kept != k:
                 loads[kept] = loads[k]
             kept += 1
@@ -76,7 +113,7 @@ def _begin_lobes(table, side, lobes, found, loads, modulus, axle):
 
 
 @compiled
-def _rises(table, side, lobes, found, loads, count, modulus, axle):
+def _rises(table, side, lobes, found, loads, count, modulus):
     """First lobe without a load of its own that is deeper than the field there, or -1."""
     for k in range(found):
         lobe = lobes[k]
@@ -87,7 +124,7 @@ def _rises(table, side, lobes, found, loads, count, modulus, axle):
             if not own:
                 rest -= field(lobe.foot, loads[j], modulus)
         if not own and rest > 1.0e-9:
-            left, right = _ends(table, side, lobe, axle)
+            left, right = _ends(side, lobe)
             b = 0.75 * min(left, right) * math.sqrt(rest / lobe.penetration)
             _begin(table, side, loads[count], lobe, lobe.foot, b, rest, modulus)
             loads[count].lobe = k
@@ -96,16 +133,14 @@ def _rises(table, side, lobes, found, loads, count, modulus, axle):
 
 
 @compiled
-def _misfit(table, side, loads, k, count, modulus, axle):
+def _misfit(side, loads, k, count, modulus, work):
     """p - u at the ends of load k over its approach: the greatest, a negative one for half."""
     load = loads[k]
     edge = load.approach - load.width
     worst = 0.0
     for hand in range(2):
         place = load.place + (2 * hand - 1) * load.b
-        arc = place + load.leads[(len(load.leads) - 1) * hand]
-        for _ in range(2):
-            p, _, _, arc = gap_on_normal(table, side, place, arc, axle)
+        p = spline_depth(work.gap, load, (place - side.line_start) / side.line_spacing)
         for j in range(count):
             if j != k:
                 p -= field(place, loads[j], modulus)
@@ -114,18 +149,18 @@ def _misfit(table, side, loads, k, count, modulus, axle):
 
 
 @compiled
-def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, axle):
+def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, work):
     """Guess of two loads in the place of load k: about the lobe's peak and beside it.
 
     On its longer side, or on the `other`.
     """
-    left, right = _ends(table, side, lobe, axle)
+    left, right = _ends(side, lobe)
     hand = 1.0 if (right > left) != other else -1.0
     near = min(left, right)
     far = right if hand > 0.0 else left
     weight = min(misfit / 0.1, 1.0)
     one = loads[k]
-    b = math.exp((1.0 - weight) * one.log_b + weight * math.log(0.75 * near))
+    b = math.exp((1.0 - weight) * math.log(one.b) + weight * math.log(0.75 * near))
     place = one.place + weight * (lobe.foot - one.place)
     depth = lobe.penetration
     rest = lobe.foot + hand * far - (place + hand * b)
@@ -133,10 +168,7 @@ def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, ax
     second = min(max(second, 0.1 * b), 0.42 * abs(rest))
     _begin(table, side, one, lobe, place, b, depth, modulus)
     at = place + hand * (b + 0.5 * second)
-    arc = at + lobe.arc - lobe.foot
-    p = 0.0
-    for _ in range(2):
-        p, _, _, arc = gap_on_normal(table, side, at, arc, axle)
+    p = spline_depth(work.gap, lobe, (at - side.line_start) / side.line_spacing)
     two = loads[count]
     _begin(table, side, two, lobe, at, second, max(0.5 * p, 0.02 * depth), modulus)
     two.lobe = one.lobe
@@ -162,7 +194,7 @@ def blend(gain):
 
 
 @compiled
-def _deepest_alone(table, side, lobes, found, load, modulus, axle):
+def _deepest_alone(table, side, lobes, found, load, modulus, work):
     """Guess of one load for poses far from any that the equations are made for; its number."""
     if found == 0:
         return 0
@@ -170,16 +202,15 @@ def _deepest_alone(table, side, lobes, found, load, modulus, axle):
     for k in range(1, found):
         if lobes[k].penetration > lobe.penetration:
             lobe = lobes[k]
-    left, right = _ends(table, side, lobe, axle)
-    b = 0.75 * min(left, right)
-    _begin(table, side, load, lobe, lobe.foot, b, lobe.penetration, modulus)
-    load.mean = load.own
+    _begin_lobe(table, side, load, lobe, lobe.begin, lobe.end, modulus, work)
+    fill(load, modulus)
+    load.average = load.own
     load.sunk = 0.0
     return 1
 
 
 @compiled
-def _second_set(table, side, lobes, work, modulus, axle):
+def _second_set(table, side, lobes, work, modulus):
     """Look for one load more than in the first set, where that misfits most; into the second."""
     loads = work.loads[0]
     count = work.sets[0].count
@@ -188,7 +219,7 @@ def _second_set(table, side, lobes, work, modulus, axle):
     worst = MISFIT
     which = -1
     for k in range(count):
-        misfit = _misfit(table, side, loads, k, count, modulus, axle)
+        misfit = _misfit(side, loads, k, count, modulus, work)
         if misfit > worst:
             worst = misfit
             which = k
@@ -199,8 +230,8 @@ def _second_set(table, side, lobes, work, modulus, axle):
         for k in range(count):
             seconds[k] = loads[k]
         lobe = lobes[loads[which].lobe]
-        _begin_second(table, side, lobe, seconds, which, count, worst, attempt > 0, modulus, axle)
-        more, energy = stationary(table, side, seconds, count + 1, modulus, axle, work)
+        _begin_second(table, side, lobe, seconds, which, count, worst, attempt > 0, modulus, work)
+        more, energy = stationary(table, side, seconds, count + 1, modulus, work)
         if more > count and energy > first * (1.0 + NO_GAIN):
             work.sets[1].count = more
             work.sets[1].energy = energy
@@ -252,7 +283,7 @@ def _valley(table, side, lobes, loads, count, axle, work):
 
 
 @compiled
-def _merged_set(table, side, lobes, pair, work, modulus, axle):
+def _merged_set(table, side, lobes, pair, work, modulus):
     """Without the lesser one of a pair of loads of the first set; into the third."""
     loads = work.loads[0]
     merged = work.loads[2]
@@ -265,8 +296,8 @@ def _merged_set(table, side, lobes, pair, work, modulus, axle):
             if k != kept:
                 continue
             lobe = lobes[loads[kept].lobe]
-            left = lobe.foot - one.foot + _ends(table, side, one, axle)[0]
-            right = two.foot - lobe.foot + _ends(table, side, two, axle)[1]
+            left = lobe.foot - one.foot + _ends(side, one)[0]
+            right = two.foot - lobe.foot + _ends(side, two)[1]
             b = 0.75 * min(left, right)
             depth = lobe.penetration
             _begin(table, side, merged[count], lobe, lobe.foot, b, depth, modulus)
@@ -274,9 +305,23 @@ def _merged_set(table, side, lobes, pair, work, modulus, axle):
         else:
             merged[count] = loads[k]
         count += 1
-    count, energy = stationary(table, side, merged, count, modulus, axle, work)
+    count, energy = stationary(table, side, merged, count, modulus, work)
     work.sets[2].count = count
     work.sets[2].energy = energy
+
+
+@compiled
+def _covered(side, work):
+    """Whether p has been sampled wherever a load presses."""
+    per = 1.0 / side.line_spacing
+    for m in range(3):
+        for k in range(work.sets[m].count):
+            load = work.loads[m, k]
+            at = (load.place - side.line_start) * per
+            b = load.b * per
+            if at - b < load.low or at + b > load.high + 1:
+                return False
+    return True
 
 
 @compiled
@@ -285,23 +330,36 @@ def side_loads(table, side, found, axle, modulus, work):
 
     `work.sets`: all lobes; one load more in a lobe; without the lesser of two that merge.
     """
+    energy = by_q = 0.0
+    for attempt in range(3):
+        low = NEAR - 0.6 * attempt
+        sample_lobes(table, side, work.lobes, found, low, axle, work)
+        energy, by_q = _weighted_sets(table, side, found, axle, modulus, work)
+        if _covered(side, work):
+            break
+    return energy, by_q
+
+
+@compiled
+def _weighted_sets(table, side, found, axle, modulus, work):
+    """As `side_loads`, when p has been sampled."""
     lobes = work.lobes
     loads = work.loads[0]
     sets = work.sets
     for k in range(3):
         sets[k].count = 0
         sets[k].weight = 0.0
-    count = _begin_lobes(table, side, lobes, found, loads, modulus, axle)
+    count = _begin_lobes(table, side, lobes, found, loads, modulus, work)
     first = 0.0
     for _ in range(3):
-        count, first = stationary(table, side, loads, count, modulus, axle, work)
+        count, first = stationary(table, side, loads, count, modulus, work)
         if count in (0, found, MOST_ELLIPSES):
             break
-        if _rises(table, side, lobes, found, loads, count, modulus, axle) < 0:
+        if _rises(table, side, lobes, found, loads, count, modulus) < 0:
             break
         count += 1
     if count == 0:
-        count = _deepest_alone(table, side, lobes, found, loads[0], modulus, axle)
+        count = _deepest_alone(table, side, lobes, found, loads[0], modulus, work)
         sets[0].count = count
         sets[0].weight = 1.0
         return loads[0].force * (loads[0].own - loads[0].work), 0.0
@@ -311,7 +369,7 @@ def side_loads(table, side, found, axle, modulus, work):
     separate = first
     sets[0].weight = apart
     if apart > 0.0:
-        _second_set(table, side, lobes, work, modulus, axle)
+        _second_set(table, side, lobes, work, modulus)
         if sets[1].count > 0:
             gain = sets[1].energy / first - 1.0
             s, rate = blend(gain)
@@ -320,7 +378,7 @@ def side_loads(table, side, found, axle, modulus, work):
             sets[1].weight = apart * rate
     if pair < 0:
         return separate, 0.0
-    _merged_set(table, side, lobes, pair, work, modulus, axle)
+    _merged_set(table, side, lobes, pair, work, modulus)
     if sets[2].count == 0:
         sets[0].weight += 1.0 - apart
         return separate, 0.0

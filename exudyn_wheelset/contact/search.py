@@ -208,6 +208,8 @@ def find_lobes(table, side, axle, work):
         last = depth
     if last > -SCAN_MARGIN and last >= before:
         found = _note_candidate(candidates, found, final - 1, before, last, last, valley_node)
+    work.first_node = first
+    work.final_node = final - 1
     if found == 0:
         return 0
     return _refine_lobes(table, side, axle, work, found, first, final - 1)
@@ -262,6 +264,7 @@ def _refine_lobes(table, side, axle, work, found, first_node, final_node):
         if penetration <= 0.0:
             continue
         lobe = lobes[kept]
+        lobe.node = candidate.node
         lobe.arc = arc
         lobe.foot = foot
         lobe.penetration = penetration

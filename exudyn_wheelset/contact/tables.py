@@ -13,7 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
-from exudyn_wheelset.contact.layout import HEADER, MOST_NODES, SIDE
+from exudyn_wheelset.contact.layout import HEADER, MOST_LINES, MOST_NODES, SIDE
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
 
@@ -23,6 +23,9 @@ from exudyn_wheelset.profiles import Profile
 # no patches that merge, is scanned with twice as many nodes (FINE_NODES).
 NODE_SPACING = 2.0e-3
 GRID_SPACING = 0.25e-3
+# Lines of force of contact/gap_spline.py, and how many more go on straight beyond the rail's ends.
+LINE_SPACING = 0.25e-3
+LINES_BEYOND = 24
 # Steeper parts (flange back, web side of the head) never carry a wheel; without them height is a
 # function of the lateral position.
 STEEPEST_SLOPE = 14.0
@@ -88,7 +91,8 @@ def _side_blocks(
     ):
         side[curve]["segments"], side[curve]["last"] = len(rows), len(rows) - 1
         side[curve]["spacing"], side[curve]["per_spacing"] = spacing, 1.0 / spacing
-    blocks = [("nodes", nodes), ("grid", grid), ("fine_nodes", fine)]
+    lines, side["line_start"], side["line_spacing"] = _lines(rail_curve, rail.spacing)
+    blocks = [("nodes", nodes), ("grid", grid), ("fine_nodes", fine), ("lines", lines)]
     for name, block in blocks:
         side[name]["count"] = block.shape[1]
     side["grid_start"], side["grid_step"] = start, GRID_SPACING
@@ -143,3 +147,21 @@ def _grid(curve: np.ndarray, spacing: float) -> tuple[np.ndarray, float]:
     arc = np.interp(lateral, curve[:, 0], spacing * np.arange(len(curve)))
     height = np.interp(lateral, curve[:, 0], curve[:, 4])
     return np.array([height, arc]), start
+
+
+def _lines(curve: np.ndarray, spacing: float) -> tuple[np.ndarray, float, float]:
+    """Rows LINE_... at places of the rail, the first place and the step between them [m]."""
+    step = min(max(round(LINE_SPACING / spacing), 1), len(curve) // 20)
+    most = MOST_LINES - 2 * LINES_BEYOND
+    step = max(step, -(-len(curve) // most))
+    rows = curve[::step]
+    tangents = rows[:, [1, 5]]
+    bend = 2.0 * (rows[:, 1] * rows[:, 6] - rows[:, 5] * rows[:, 2])
+    lines = np.column_stack([rows[:, [0, 4]], tangents, bend])
+    steps = step * spacing * np.arange(1, LINES_BEYOND + 1)[:, None]
+    before, after = (np.repeat(lines[[end]], LINES_BEYOND, axis=0) for end in (0, -1))
+    before[:, :2] -= steps[::-1] * before[:, 2:4]
+    after[:, :2] += steps * after[:, 2:4]
+    before[:, 4] = after[:, 4] = 0.0
+    start = -LINES_BEYOND * step * spacing
+    return np.vstack([before, lines, after]).T, start, step * spacing
