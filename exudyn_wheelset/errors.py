@@ -29,5 +29,9 @@ class WheelsetWarning(UserWarning):
     """A result that is given but not to be trusted; has the number, its limit and the mend."""
 
 
+class VehicleError(WheelsetError):
+    """A vehicle file that gives no vehicle; names the file, the line, the value and the mend."""
+
+
 class FileError(WheelsetError):
     """A result that cannot be written: the file and the reason."""

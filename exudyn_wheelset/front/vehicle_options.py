@@ -17,9 +17,9 @@ import exudyn as exu
 from exudyn_wheelset.catalogue.by_name import CATALOGUE, entry, system_of
 from exudyn_wheelset.catalogue.by_name import vehicle as vehicle_of_name
 from exudyn_wheelset.catalogue.changes import Changes
-from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.script import add_profile_options, script_profile
 from exudyn_wheelset.systems.system import DynamicSystem
+from exudyn_wheelset.vehicles.files import load_vehicle
 
 # Options that change a vehicle, as `Changes` calls them.
 CHANGES = (
@@ -46,10 +46,6 @@ def named_vehicle(word: str, **changes: Any) -> Any:
     """
     if Path(word).suffix != FILE_SUFFIX:
         return vehicle_of_name(word, **changes)
-    try:
-        from exudyn_wheelset.vehicles.files import load_vehicle
-    except ImportError:
-        raise WheelsetError(f"{word}: vehicle files are not read yet; give a name") from None
     return Changes.of(word, **changes).applied_to(load_vehicle(word))
 
 

@@ -62,11 +62,12 @@ def given_preloads(vehicle: Vehicle, struts: list[Strut]) -> Array:
 
 
 def balance(
-    vehicle: Vehicle, struts: list[Strut], centres: Array, given: Array
+    vehicle: Vehicle, struts: list[Strut], centres: Array, given: Array, tapes: bool = False
 ) -> tuple[Array, Array, Array]:
     """Forces (m, 6) of the struts and loads (k, 2) [N] of the wheels that balance all bodies.
 
-    given (m, 6): forces of the struts in the drawing. Also returns how the parts sink (n, 6).
+    given (m, 6): forces of the struts in the drawing; tapes: wheels stand on their tape circles, to
+    some millimetres. Also returns how the parts sink (n, 6).
     """
     count = len(centres)
     levers = [strut.lever(centres) for strut in struts]
@@ -79,9 +80,11 @@ def balance(
             stiffness += lever.T @ strut.stiffness @ lever
     wheels = np.zeros((2 * len(vehicle.wheelsets), 6 * count))
     for k, axle in enumerate(vehicle.wheelsets):
-        geometry = contact_geometry(axle.wheelset, vehicle.track, [0.0])
         half = axle.wheelset.tape_half_distance
-        places = (half + geometry.left.wheel_y[0], -half - geometry.right.wheel_y[0])
+        places = (half, -half)
+        if not tapes:
+            geometry = contact_geometry(axle.wheelset, vehicle.track, [0.0])
+            places = (half + geometry.left.wheel_y[0], -half - geometry.right.wheel_y[0])
         for hand, y in enumerate(places):
             wheels[2 * k + hand, 6 * k + 2] = 1.0
             wheels[2 * k + hand, 6 * k + 3] = y

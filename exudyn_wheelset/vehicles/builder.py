@@ -65,6 +65,11 @@ class VehicleBuilder:
         self._connections: dict[str, Connection] = {}
         self._loads: list[Load] = []
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bodies and wheelsets that are there."""
+        return tuple(self._parts)
+
     def body(
         self,
         name: str,

@@ -157,7 +157,8 @@ def checked_direction(what: str, direction: Any) -> Vector:
     length = float(np.linalg.norm(given))
     if length == 0.0:
         raise WheelsetError(f"{what}: direction = {given}: give a vector of some length")
-    x, y, z = (value / length for value in given)
+    # A unit vector stays what it is, to the last digit: elements are written and read again.
+    x, y, z = (value if abs(length - 1.0) < 1e-15 * 4 else value / length for value in given)
     return (x, y, z)
 
 
