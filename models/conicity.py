@@ -16,36 +16,27 @@ mm, the value at 3 mm, the position of rest and the shifts at which the flanges 
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.front.contact_plots import SHIFT_TEXTS, contact_figure, flange_contact
-from exudyn_wheelset.front.output import write_figure
+from exudyn_wheelset import Profile, Track, Wheelset
+from exudyn_wheelset.front.contact_plots import SHIFT_TEXTS, keep_conicity
 from exudyn_wheelset.front.script import (
     add_profile_options,
     run_script,
     script_parser,
     script_profile,
 )
-from exudyn_wheelset.geometry.conicity import METHODS, equivalent_conicity, kinematic_oscillation
-from exudyn_wheelset.geometry.rigid import ContactGeometry
-from exudyn_wheelset.geometry.rolling_radius import SHIFTS, rolling_radius_curve
-from exudyn_wheelset.profiles import Profile, load_profile
-from exudyn_wheelset.results.files import write_columns
+from exudyn_wheelset.front.tables import print_conicity
+from exudyn_wheelset.geometry.conicity import METHODS
+from exudyn_wheelset.geometry.rolling_pair import rolling_pair
+from exudyn_wheelset.geometry.rolling_radius import SHIFTS
 
 ProfileSource = Profile | str | PathLike
 
-SHIFT_SPACING = 2.0e-5
-DRAWN_AMPLITUDES = 1e-4 * np.arange(5, 101)
 TABLE_AMPLITUDES_MM = tuple(float(value) for value in range(1, 11))
 # Contact geometry does not ask for mass and inertia; a description of a wheelset does.
 _ANY_MASS, _ANY_INERTIA = 1000.0, (600.0, 100.0, 600.0)
@@ -80,135 +71,26 @@ def run(
     exists or it would leave the rails.
     """
     wheelset = Wheelset(
-        _ANY_MASS,
-        _ANY_INERTIA,
-        radius,
-        load_profile(wheel, kind="wheel"),
-        tape_half_distance,
-        None if right_wheel is None else load_profile(right_wheel, kind="wheel"),
-        right_radius,
+        _ANY_MASS, _ANY_INERTIA, radius, wheel, tape_half_distance, right_wheel, right_radius
     )
     track = Track(
-        load_profile(rail, kind="rail"),
+        rail,
         gauge,
         gauge_depth,
-        inclination=inclination,
-        right_rail=None if right_rail is None else load_profile(right_rail, kind="rail"),
+        inclination,
+        right_rail,
         origin_half_distance=origin_half_distance,
     )
-    shift = "level" if neglect_roll else shift
-    y, difference, geometry = rolling_radius_curve(wheelset, track, reach, SHIFT_SPACING, shift)
-    geometry = replace(geometry, y=y)
-    spacing = 2.0 * tape_half_distance
-    wanted = [*amplitudes_mm, 3.0]
-    conicity = _conicity(y, difference, 1e-3 * np.array(wanted), spacing, radius, method)
-    numbers: dict[str, Any] = {
-        "wheel": wheelset.wheel.name,
-        "rail": track.rail.name,
-        "shift": shift,
-        "conicity_3mm": _number(conicity[-1]),
-        "conicity": {
-            f"{at:g}": _number(value) for at, value in zip(wanted[:-1], conicity[:-1], strict=True)
-        },
-        "rest_mm": _rest_mm(y, difference),
-        "flange_contact_mm": _flange_contact_mm(geometry),
-        "wavelength_3mm": _wavelength(y, difference, spacing, wheelset),
-    }
+    pair = rolling_pair(wheelset, track, reach, "level" if neglect_roll else shift)
+    numbers = pair.numbers(amplitudes_mm, method)
     if out is not None:
-        drawn = _conicity(y, difference, DRAWN_AMPLITUDES, spacing, radius, method)
-        numbers["files"] = _keep(Path(out), wheelset, track, geometry, drawn, shift)
+        numbers["files"] = [str(path) for path in keep_conicity(Path(out), pair, method)]
     return numbers
 
 
-def _conicity(
-    y: np.ndarray,
-    difference: np.ndarray,
-    amplitudes: np.ndarray,
-    spacing: float,
-    radius: float,
-    method: str,
-) -> np.ndarray:
-    """Conicity, NaN at amplitudes that reach beyond the shifts with contact."""
-
-    def at(amplitude: float) -> float:
-        return float(equivalent_conicity(y, difference, amplitude, spacing, radius, method))
-
-    # A position of rest must exist: this small amplitude raises if it does not.
-    at(1.0e-4)
-    values = []
-    for amplitude in amplitudes:
-        try:
-            values.append(at(float(amplitude)))
-        except WheelsetError:
-            if not amplitude > 0.0:
-                raise
-            values.append(np.nan)
-    return np.array(values)
-
-
-def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
-
-
-def _rest_mm(y: np.ndarray, difference: np.ndarray) -> float | None:
-    """Shift at which both radii agree, nearest to the middle [mm]."""
-    motion = kinematic_oscillation(y, difference, 1.0e-5)
-    return _number(round(0.5e3 * (motion.lowest + motion.highest), 6) + 0.0)
-
-
-def _wavelength(
-    y: np.ndarray, difference: np.ndarray, spacing: float, wheelset: Wheelset
-) -> float | None:
-    """Wavelength of the kinematic oscillation of 3 mm [m]."""
-    radius = 0.5 * (wheelset.radius + (wheelset.right_radius or wheelset.radius))
-    try:
-        return _number(kinematic_oscillation(y, difference, 3.0e-3, spacing, radius).wavelength)
-    except WheelsetError:
-        return None
-
-
-def _flange_contact_mm(geometry: ContactGeometry) -> list[float | None]:
-    """Shifts to the right and to the left at which a flange begins to carry [mm]."""
-    touching = flange_contact(geometry)
-    right, left = geometry.y[touching & (geometry.y < 0.0)], geometry.y[touching & (geometry.y > 0)]
-    return [
-        float(1e3 * right.max()) if right.size else None,
-        float(1e3 * left.min()) if left.size else None,
-    ]
-
-
-def _keep(
-    out: Path,
-    wheelset: Wheelset,
-    track: Track,
-    geometry: ContactGeometry,
-    conicity: np.ndarray,
-    shift: str,
-) -> list[str]:
-    """Write figure and tables; return their paths."""
-    stem = f"conicity_{wheelset.wheel.name}_{track.rail.name}"
-    stem = re.sub(r"[^\w.-]+", "_", stem)
-    columns = {
-        "y_mm": 1e3 * geometry.y,
-        "rolling_radius_difference_mm": 1e3 * geometry.rolling_radius_difference,
-        "roll_mrad": 1e3 * geometry.roll,
-        "z_mm": 1e3 * geometry.z,
-    }
-    for name, side in (("left", geometry.left), ("right", geometry.right)):
-        columns[f"{name}_wheel_y_mm"] = 1e3 * side.wheel_y
-        columns[f"{name}_rail_y_mm"] = 1e3 * side.rail_y
-        columns[f"{name}_angle_deg"] = np.degrees(side.angle)
-        columns[f"{name}_radius_mm"] = 1e3 * side.radius
-    by_amplitude = {"amplitude_mm": 1e3 * DRAWN_AMPLITUDES, "conicity": conicity}
-    figure = contact_figure(wheelset, track, geometry, DRAWN_AMPLITUDES, conicity, shift)
-    return [
-        str(path)
-        for path in (
-            write_figure(out / f"{stem}.png", figure),
-            write_columns(out / f"{stem}_shifts.csv", columns),
-            write_columns(out / f"{stem}_amplitudes.csv", by_amplitude),
-        )
-    ]
+def show(numbers: dict[str, Any]) -> None:
+    """Print the table."""
+    print_conicity(numbers, SHIFT_TEXTS[numbers["shift"]])
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -224,15 +106,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     add("--tape-half-distance", type=float, default=0.75, help="axle's centre to tape circle [m]")
     add("--amplitudes-mm", type=float, nargs="+", default=list(TABLE_AMPLITUDES_MM), metavar="MM")
     add("--method", choices=METHODS, default=METHODS[0])
-    add(
-        "--shift",
-        choices=SHIFTS,
-        default=SHIFTS[0],
-        help="at rail level, of the axle, roll left out",
-    )
+    where = "at rail level, of the axle, roll left out"
+    add("--shift", choices=SHIFTS, default=SHIFTS[0], help=where)
     add("--neglect-roll", action="store_true", help="the same as --shift level")
 
-    def run_arguments(arguments: argparse.Namespace) -> dict[str, Any]:
+    def work(arguments: argparse.Namespace) -> dict[str, Any]:
         values = vars(arguments).copy()
         smoothing = values.pop("smoothing")
         del values["json"]
@@ -240,26 +118,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             values[name] = script_profile(values[name], name.removeprefix("right_"), smoothing)
         return run(**values)
 
-    return run_script(run_arguments, parser, argv, _print_table)
-
-
-def _print_table(numbers: dict[str, Any]) -> None:
-    print(f"{numbers['wheel']} on {numbers['rail']}, {SHIFT_TEXTS[numbers['shift']]}")
-    print("amplitude [mm]  tan(gamma_e) [-]")
-    for amplitude, value in numbers["conicity"].items():
-        print(f"{amplitude:>14s}  " + ("none" if value is None else f"{value:.4f}"))
-    right, left = numbers["flange_contact_mm"]
-    rows = [
-        ("equivalent conicity at 3 mm", numbers["conicity_3mm"], ".4f", ""),
-        ("wavelength at 3 mm", numbers["wavelength_3mm"], ".2f", " m"),
-        ("position of rest", numbers["rest_mm"], ".3f", " mm"),
-        ("flange contact to the left from", left, ".2f", " mm"),
-        ("flange contact to the right from", right, ".2f", " mm"),
-    ]
-    for what, value, form, unit in rows:
-        print(f"{what:34s}" + ("none" if value is None else f"{value:{form}}{unit}"))
-    for path in numbers.get("files", ()):
-        print(path)
+    return run_script(work, parser, argv, show)
 
 
 if __name__ == "__main__":

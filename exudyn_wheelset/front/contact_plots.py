@@ -10,6 +10,7 @@ the left rail to the left.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,15 +18,17 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from exudyn_wheelset.contact.descriptions import RailPlacement, Track, Wheelset
+from exudyn_wheelset.front.output import file_stem, write_figure
 from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, new_figure, tidy
 from exudyn_wheelset.geometry.rigid import ContactGeometry, ContactSide
+from exudyn_wheelset.geometry.rolling_pair import RollingPair, flange_contact
 from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.results.files import write_columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Treads stay below 10 degrees, flanks of flanges are made with 60 to 75.
-FLANGE_ANGLE = np.radians(30.0)
+DRAWN_AMPLITUDES = 1e-4 * np.arange(5, 101)
 _WHEEL_LIFT = 16.0
 _BODY = "0.93"
 SHIFT_TEXTS = {
@@ -33,13 +36,6 @@ SHIFT_TEXTS = {
     "axle": "shift of the axle's centre",
     "level": "axle held level",
 }
-
-
-def flange_contact(geometry: ContactGeometry) -> np.ndarray:
-    """True at shifts where a wheel touches at more than 30 degrees, shape of geometry.y."""
-    return (np.abs(geometry.left.angle) > FLANGE_ANGLE) | (
-        np.abs(geometry.right.angle) > FLANGE_ANGLE
-    )
 
 
 def describe(wheelset: Wheelset, track: Track) -> str:
@@ -208,6 +204,35 @@ def contact_figure(
     plot_contact_points(axes[2, 1], wheelset, track, geometry, "right")
     figure.suptitle(describe(wheelset, track) + ", " + SHIFT_TEXTS[shift])
     return figure
+
+
+def keep_conicity(out: Path, pair: RollingPair, method: str = "integration") -> list[Path]:
+    """Keep the figure of a pair, its contact by shift and its conicity by amplitude; the files.
+
+    conicity_<wheel>_<rail>.png, ..._shifts.csv, ..._amplitudes.csv; lengths in mm, angles in
+    degrees.
+    """
+    geometry, amplitudes = pair.geometry, DRAWN_AMPLITUDES
+    conicity = pair.conicity(amplitudes, method)
+    stem = file_stem("conicity", pair.wheelset, pair.track)
+    columns = {
+        "y_mm": 1e3 * geometry.y,
+        "rolling_radius_difference_mm": 1e3 * geometry.rolling_radius_difference,
+        "roll_mrad": 1e3 * geometry.roll,
+        "z_mm": 1e3 * geometry.z,
+    }
+    for side, name, _ in _sides(geometry):
+        columns[f"{name}_wheel_y_mm"] = 1e3 * side.wheel_y
+        columns[f"{name}_rail_y_mm"] = 1e3 * side.rail_y
+        columns[f"{name}_angle_deg"] = np.degrees(side.angle)
+        columns[f"{name}_radius_mm"] = 1e3 * side.radius
+    by_amplitude = {"amplitude_mm": 1e3 * amplitudes, "conicity": conicity}
+    figure = contact_figure(pair.wheelset, pair.track, geometry, amplitudes, conicity, pair.shift)
+    return [
+        write_figure(out / f"{stem}.png", figure),
+        write_columns(out / f"{stem}_shifts.csv", columns),
+        write_columns(out / f"{stem}_amplitudes.csv", by_amplitude),
+    ]
 
 
 def _sides(geometry: ContactGeometry) -> tuple[tuple[ContactSide, str, str], ...]:

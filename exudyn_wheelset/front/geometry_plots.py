@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
+from exudyn_wheelset.front.output import file_stem, write_figure
 from exudyn_wheelset.front.plots import (
     GREY,
     LEFT_COLOUR,
@@ -25,6 +27,8 @@ from exudyn_wheelset.front.plots import (
 )
 from exudyn_wheelset.geometry.piecewise import COLUMNS, PiecewiseGeometry, geometry_columns
 from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+from exudyn_wheelset.geometry.summary import telling_shifts
+from exudyn_wheelset.results.files import write_columns
 
 _PANELS = (
     ("roll angle [mrad]", 1e3, ("roll",)),
@@ -63,6 +67,33 @@ def profiles_figure(wheelset: Wheelset, track: Track, shifts: Sequence[float]) -
         panel.set_xlabel("y in the track frame [mm], left positive")
     figure.suptitle(f"{pair_name(wheelset, track)}, seen from behind", fontsize=11)
     return figure
+
+
+def keep_geometry(
+    out: Path,
+    wheelset: Wheelset,
+    track: Track,
+    geometry: ContactGeometry,
+    pieces: PiecewiseGeometry,
+) -> list[Path]:
+    """Keep Figure 3, the profiles in contact and the contact by shift of a pair; the files.
+
+    contact_geometry_<wheel>_<rail>.png, ..._profiles.png, ....csv (SI units).
+    """
+    stem = file_stem("contact_geometry", wheelset, track)
+    shown = telling_shifts(pieces, float(geometry.y[-1]))
+    columns = {
+        "y": geometry.y,
+        **dict(zip(COLUMNS, geometry_columns(geometry).T, strict=True)),
+        "left_second_gap": geometry.left.second_gap,
+        "right_second_gap": geometry.right.second_gap,
+    }
+    profiles = profiles_figure(wheelset, track, shown)
+    return [
+        write_figure(out / f"{stem}.png", geometry_figure(wheelset, track, geometry, pieces)),
+        write_figure(out / f"{stem}_profiles.png", profiles),
+        write_columns(out / f"{stem}.csv", columns),
+    ]
 
 
 def draw_contact_geometry(

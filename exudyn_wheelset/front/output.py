@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.results.files import plain, write_atomically
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.versions import versions
@@ -22,6 +24,11 @@ def write_json(path: str | Path, numbers: Mapping[str, Any], **about: Any) -> Pa
 def write_figure(path: str | Path, figure: Any) -> Path:
     """Save a matplotlib figure."""
     return write_atomically(path, lambda part: figure.savefig(part, dpi=130))
+
+
+def file_stem(script: str, wheelset: Wheelset, track: Track) -> str:
+    """Name of the files of a script about a pair, with nothing in it that a file system minds."""
+    return re.sub(r"[^\w.+-]+", "_", f"{script}_{wheelset.wheel.name}_{track.rail.name}")
 
 
 def keep_runs(
