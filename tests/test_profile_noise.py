@@ -128,6 +128,14 @@ class TestAutomaticSmoothing:
         assert error[0] < 0.02 and error[1] < 0.01
         assert smooth.smoothing == pytest.approx(deviation, rel=0.15)
 
+    @pytest.mark.parametrize("seed", [0, 1, 2])
+    def test_conicity_with_noise_on_the_rail(self, wheel, seed):
+        """UIC60's curvature steps from 3.3 to 12.5 1/m where S1002 runs; 5 micrometres, 0.1 mm."""
+        rail = load_profile("UIC60")
+        smooth = with_noise(rail, 5e-6, 1e-4, seed).smoothed("auto")
+        error = np.abs(conicity(wheel, Track(smooth)) - conicity(wheel, Track(rail)))
+        assert error[0] < 0.02 and error[1] < 0.01
+
     @needs_worn
     @pytest.mark.parametrize("deviation", [5e-6, 1e-5, 2e-5])
     @pytest.mark.parametrize("name", ["worn7216.prw", "worn7813.prw"])

@@ -8,6 +8,7 @@ page quotes; those of measured wheels where they lie beside the repository.
 """
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib
@@ -27,6 +28,7 @@ AMPLITUDES = 1e-3 * np.array([1.0, 3.0])
 SEEDS = range(8)
 NOISE = 1e-5
 SPACING = 2e-4
+BUMP_WIDTH = 3e-3
 TOLERANCES = (0.0, 0.95e-5, 1.0e-5, 1.05e-5, 1.2e-5, 2e-5, 5e-5)
 SHOWN = (0.95e-5, 1.05e-5, 2e-5, 5e-5)
 
@@ -185,6 +187,58 @@ def noisy_rails() -> None:
             )
 
 
+def least_deviation(
+    clean: Profile,
+    of_pair: Callable[[Profile], NDArray[np.float64]],
+    deviation: float,
+    spacing: float,
+) -> NDArray[np.float64]:
+    """Standard deviation of conicity that no unbiased smoother beats (Cramer-Rao), shape (2,).
+
+    For one that knows the clean shape but for the heights of bumps exp(-(y - y_k)^2/(2 WIDTH^2)),
+    WIDTH apart, over the tread: sqrt(D F^-1 D), D the conicity's derivatives over the heights, F
+    the sum of products of bumps over points, over the noise squared.
+    """
+    y = np.arange(-0.036, 0.0361, spacing)
+    centres = np.arange(-0.03, 0.0301, BUMP_WIDTH)
+    bumps = np.exp(-0.5 * ((y - centres[:, None]) / BUMP_WIDTH) ** 2)
+    information = bumps @ bumps.T / deviation**2
+    angle = np.arctan(clean.slope(np.clip(clean.y, *clean.span)))
+
+    def bumped(centre: float, height: float) -> NDArray[np.float64]:
+        offset = height * np.exp(-0.5 * ((clean.y - centre) / BUMP_WIDTH) ** 2)
+        y, z = clean.y - np.sin(angle) * offset, clean.z + np.cos(angle) * offset
+        keep = np.concatenate(([True], y[1:] > np.maximum.accumulate(y)[:-1] + 1e-7))
+        return of_pair(Profile("with a bump", clean.kind, y[keep], z[keep]))
+
+    # as large as what the noise leaves undecided
+    height = deviation / np.sqrt(np.sqrt(np.pi) * BUMP_WIDTH / spacing)
+    slopes = [(bumped(y, height) - bumped(y, -height)) / (2 * height) for y in centres]
+    return np.sqrt(np.sum(np.array(slopes) * np.linalg.solve(information, slopes), axis=0))
+
+
+def least_deviations() -> None:
+    """What the points' noise leaves open, beside the errors that the automatic curve has."""
+    wheel, rail = load_profile("S1002"), load_profile("UIC60")
+    pairs = {"S1002 on UIC60": (wheel, lambda p: conicity(p, Track(rail)), (1e-4, 2.5e-4, 5e-4))}
+    pairs["noise on UIC60"] = (rail, lambda p: conicity(wheel, Track(p)), (1e-4, 2.5e-4))
+    if MEASURED.is_dir():
+        own = Track(load_profile(MEASURED / "siteb.prr"), inclination=0.0)
+        for name in ("worn7216.prw", "worn7813.prw"):
+            worn = load_profile(MEASURED / name)
+            pairs[f"{name} on its rail"] = (worn, lambda p: conicity(p, own), (2.5e-4,))
+            pairs[f"{name} on UIC60"] = (worn, lambda p: conicity(p, Track(rail)), (2.5e-4,))
+    for label, (clean, of_pair, spacings) in pairs.items():
+        for spacing in spacings:
+            for deviation in 1e-6 * np.array([5.0, 10.0, 20.0]):
+                least = least_deviation(clean, of_pair, deviation, spacing)
+                print(
+                    f"{label}, {1e3 * spacing:g} mm, {1e6 * deviation:4.1f} um: least standard "
+                    f"deviation {np.round(least, 4)}",
+                    flush=True,
+                )
+
+
 def measured_pairs() -> None:
     """Worn wheels with noise put on, and a measured one as it is, smoothed here and by others."""
     rail = Track(load_profile(MEASURED / "siteb.prr"), inclination=0.0)
@@ -205,6 +259,7 @@ def main() -> None:
     curvature_figure()
     conicity_figure()
     noisy_rails()
+    least_deviations()
     if MEASURED.is_dir():
         measured_pairs()
 

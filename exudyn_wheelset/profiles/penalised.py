@@ -26,9 +26,12 @@ goes with it; errors alike over more than about 1.5 mm stay, for they cannot be 
 A tread's curvature hardly changes and a flange root's does: one lambda for both would leave noise
 on the one or round off the other. So w_k falls with the cube of the rms of Delta^3 c within 4 mm,
 found by repeating the fit (L. Yang and Y. Hong, "Adaptive penalized splines for data smoothing",
-Computational Statistics & Data Analysis 108, 2017, 70-83). The cube, gamma and the 4 mm were
-chosen by the error of equivalent conicity of S1002 and worn wheels under 5 to 20 micrometres of
-noise; docs/figures/make_profile_figures.py draws what comes out.
+Computational Statistics & Data Analysis 108, 2017, 70-83). Rails are arcs whose curvature steps
+where they meet, in the middle of where wheels run (UIC60: 3.3 to 12.5 1/m), and 4 mm would smear
+the step: theirs is 1 mm, which halves the error of conicity; on treads, whose curvature has no
+steps, 1 mm doubles it. The cube, gamma and both lengths were chosen by the error of equivalent
+conicity of S1002, worn wheels and UIC60 under 5 to 20 micrometres of noise;
+docs/figures/make_profile_figures.py draws what comes out, and how near it is to the least error.
 """
 
 from __future__ import annotations
@@ -53,7 +56,8 @@ _MOST_POINTS = 3000
 _KNOTS_PER_POINT = 1.0 / 1.5
 _GAMMA = 1.4
 _POWER = 3.0
-_REACH = 4.0
+# mm
+_REACH = {"wheel": 4.0, "rail": 1.0}
 _LEAST_ROUGHNESS = 1e-2
 _PILOT_GAMMA = 3.0
 _MOST_GAMMA = 3.5
@@ -88,17 +92,22 @@ class PenalisedFit:
     correlation: float
 
 
-def fit_penalised(points: FloatArray) -> PenalisedFit:
-    """The penalised curve near `points`, shape (n, 2), n >= 8, columns y and z [m], in order."""
+def fit_penalised(points: FloatArray, kind: str) -> PenalisedFit:
+    """The penalised curve near `points`, shape (n, 2), n >= 8, columns y and z [m], in order.
+
+    kind: "wheel" or "rail".
+    """
     every = points
     group = -(-len(points) // _MOST_POINTS)
     if group > 1:
         # Steps shorter than the noise have no direction; means have, and lose nothing else.
         points = averaged(points, group)
     system = _system(points)
-    pilot = _adaptive(system, _PILOT_GAMMA)
+    pilot = _adaptive(system, _PILOT_GAMMA, _REACH[kind])
     correlated = _correlated_points(points, system, pilot)
-    coefficients = _adaptive(system, float(np.clip(correlated, _GAMMA, _MOST_GAMMA)))
+    coefficients = _adaptive(
+        system, float(np.clip(correlated, _GAMMA, _MOST_GAMMA)), _REACH[kind]
+    )
     curve = BSpline(_SCALE * system.knots, _SCALE * coefficients, _DEGREE)
     centres = group * np.arange(len(points)) + 0.5 * (group - 1)
     along = np.interp(np.arange(len(every)), centres, _SCALE * system.parameter)
@@ -115,13 +124,16 @@ def fit_penalised(points: FloatArray) -> PenalisedFit:
     )
 
 
-def _adaptive(system: _System, gamma: float) -> FloatArray:
-    """Coefficients of the curve after repeated fits, each weighted by the roughness before."""
+def _adaptive(system: _System, gamma: float, reach: float) -> FloatArray:
+    """Coefficients of the curve after repeated fits, each weighted by the roughness before.
+
+    reach: within which the roughness is taken [mm].
+    """
     weights = np.ones(system.differences.shape[0])
     coefficients, exponent = _cross_validated(system, weights, _ALL_EXPONENTS, gamma)
     for _ in range(_REPEATS):
         change = np.sum((system.differences @ coefficients) ** 2, axis=1)
-        rough = np.sqrt(gaussian_filter1d(change, _REACH / system.step, mode="nearest"))
+        rough = np.sqrt(gaussian_filter1d(change, reach / system.step, mode="nearest"))
         highest = float(np.max(rough))
         if highest == 0.0:
             break

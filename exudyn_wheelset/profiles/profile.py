@@ -259,7 +259,7 @@ class Profile:
         if curvature_noise(self.noise, self._points) < _HARMLESS_CURVATURE:
             object.__setattr__(self, "smoothing", 0.0)
             return
-        fit = fit_penalised(self._points)
+        fit = fit_penalised(self._points, self.kind)
         self._cache["curve"] = fit.curve
         object.__setattr__(self, "smoothing", min(fit.distance, 1e-3))
         object.__setattr__(self, "is_automatic", True)
@@ -272,7 +272,7 @@ class Profile:
     def _curve(self) -> BSpline:
         if "curve" not in self._cache:
             if self.is_automatic:
-                self._cache["curve"] = fit_penalised(self._points).curve
+                self._cache["curve"] = fit_penalised(self._points, self.kind).curve
             else:
                 self._cache["curve"] = curves.fit_curve(self._points, float(self.smoothing))
         return self._cache["curve"]
