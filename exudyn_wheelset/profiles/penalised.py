@@ -105,9 +105,7 @@ def fit_penalised(points: FloatArray, kind: str) -> PenalisedFit:
     system = _system(points)
     pilot = _adaptive(system, _PILOT_GAMMA, _REACH[kind])
     correlated = _correlated_points(points, system, pilot)
-    coefficients = _adaptive(
-        system, float(np.clip(correlated, _GAMMA, _MOST_GAMMA)), _REACH[kind]
-    )
+    coefficients = _adaptive(system, float(np.clip(correlated, _GAMMA, _MOST_GAMMA)), _REACH[kind])
     curve = BSpline(_SCALE * system.knots, _SCALE * coefficients, _DEGREE)
     centres = group * np.arange(len(points)) + 0.5 * (group - 1)
     along = np.interp(np.arange(len(every)), centres, _SCALE * system.parameter)
