@@ -5,6 +5,7 @@ Growth rates in 1/s, frequencies in Hz, speeds in m/s; the motion of a mode is d
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,26 @@ def draw_roots(
     marks = draw_root_locus(axes, locus, highest_frequency, critical.speed)
     axes.set_xlim(-decay, max(0.1 * decay, 1.2 * float(np.real(locus.eigenvalues).max())))
     axes.figure.colorbar(marks, ax=axes, label="speed [m/s]")
+
+
+def draw_critical_speeds(
+    axes: Axes,
+    rows: Mapping[str, Sequence[float]],
+    columns: Sequence[str],
+    published: Mapping[str, Sequence[float]],
+) -> None:
+    """Draw critical speeds [m/s] as bars, a group for each column, published ones as lines."""
+    width = 0.8 / len(rows)
+    places = np.arange(len(columns))
+    for k, (row, values) in enumerate(rows.items()):
+        bars = axes.bar(places + (k - (len(rows) - 1) / 2) * width, values, width, label=row)
+        for bar, value in zip(bars, published.get(row, ()), strict=False):
+            ends = [bar.get_x(), bar.get_x() + bar.get_width()]
+            axes.plot(ends, [value] * 2, color="black", linewidth=2.0)
+    axes.plot([], [], color="black", linewidth=2.0, label="published")
+    axes.set_xticks(places, columns)
+    axes.set_ylabel("linear critical speed [m/s]")
+    axes.legend(fontsize=8, frameon=False)
 
 
 def draw_mode_from_above(

@@ -32,6 +32,7 @@ def new_figure(
 def tidy(axes: Axes) -> None:
     """Pale grid, no box."""
     axes.grid(alpha=0.25, linewidth=0.6)
+    axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
 
 

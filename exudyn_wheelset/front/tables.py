@@ -14,6 +14,24 @@ def print_rows(rows: Sequence[tuple[str, str]], width: int = 34) -> None:
         print(f"{what:{width}s}{value}")
 
 
+def print_beside(
+    rows: Mapping[str, Sequence[float]],
+    columns: Sequence[str],
+    published: Mapping[str, Sequence[float]],
+) -> None:
+    """Print numbers by row and column, in brackets what is published and the difference."""
+    print(f"{'':20s}" + "".join(f"{column:>24s}" for column in columns))
+    for row, values in rows.items():
+        cells = []
+        for k, value in enumerate(values):
+            if row in published:
+                known = published[row][k]
+                cells.append(f"{value:8.1f} ({known:5.1f}, {100 * (value / known - 1):+5.1f} %)")
+            else:
+                cells.append(f"{value:8.1f}{'':17s}")
+        print(f"{row:20s}" + "".join(f"{cell:>24s}" for cell in cells))
+
+
 def print_wheel_loads(loads: Mapping[str, float], weight: float | None = None) -> None:
     """Print vertical wheel loads [N] by wheel, and the weight [N] that they carry."""
     head = "" if weight is None else f"weight {weight / 1e3:.3f} kN; "
