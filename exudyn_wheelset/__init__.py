@@ -64,6 +64,7 @@ _PLACES = {
     "create_wheelset": "coupling.create",
     "creep_force": "creep",
     "critical_disturbance": "stability.hunting.disturbance",
+    "design": "stability.design",
     "dtu_truck": "catalogue.truck",
     "equivalent_conicity": "geometry.conicity",
     "hopf_points": "stability.linear.crossings",

@@ -17,7 +17,7 @@ import exudyn as exu
 
 from exudyn_wheelset.catalogue import paper_wheelset as paper
 from exudyn_wheelset.catalogue.changes import Changes
-from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie, cooperrider_system
+from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie
 from exudyn_wheelset.catalogue.cooperrider_bogie_3d import cooperrider_bogie_3d
 from exudyn_wheelset.catalogue.dtu_car import dtu_car
 from exudyn_wheelset.catalogue.freight_car import freight_car
@@ -138,17 +138,6 @@ def s1002_wheelset(
     )
 
 
-@dataclass(frozen=True)
-class Cooperrider:
-    """Kaas-Petersen's bogie as a vehicle to build: its description with `dynamic_system`."""
-
-    bogie: CooperriderBogie
-
-    def dynamic_system(self, **options: Any) -> DynamicSystem:
-        """The bogie as a system for all analyses; options are those of ExudynSystem."""
-        return cooperrider_system(self.bogie, **options)
-
-
 def _on_track(made: Any, changes: Changes) -> Any:
     """A vehicle with its track changed."""
     track = made.track
@@ -191,20 +180,17 @@ def _s1002(changes: Changes) -> WheelsetOnFrame:
     return _on_track(made, changes)
 
 
-def _cooperrider(changes: Changes) -> Cooperrider:
-    bogie = replace(CooperriderBogie(), **changes.given("conicity"))
-    if changes.friction is not None:
-        bogie = replace(bogie, friction_force=changes.friction * COOPERRIDER_WHEEL_LOAD)
-    return Cooperrider(bogie)
+def _cooperrider(changes: Changes) -> CooperriderBogie:
+    bogie = CooperriderBogie()
+    for name, value in changes.given("conicity", "friction").items():
+        bogie = bogie.replace(name, value)
+    return bogie
 
 
 def _truck(changes: Changes) -> Truck:
     made = dtu_truck(wheel=changes.tread("S1002"), **changes.given("friction", "creep", "damping"))
     return _on_track(made, changes)
 
-
-# [N]: with it the source's friction of 0.15 gives its 10 kN a wheel.
-COOPERRIDER_WHEEL_LOAD = 10.0e3 / 0.15
 
 _TRACK = ("gauge", "gauge_depth", "inclination")
 _LATERAL = ("friction", "creep", *_TRACK, "wheel", "rail", "conicity")

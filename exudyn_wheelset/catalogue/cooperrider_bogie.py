@@ -31,7 +31,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any, NamedTuple
 
 import exudyn as exu
@@ -39,6 +39,7 @@ import numpy as np
 from exudyn.utilities import NodeGenericODE2, ObjectGenericODE2
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
@@ -65,6 +66,8 @@ SCALES = np.array([1e-3] * 7 + [2.5e-2] * 7)
 # Kalker's coefficients of the source divide the creepages.
 LONGITUDINAL_CREEP_FACTOR = 0.60252
 LATERAL_CREEP_FACTOR = 0.54219
+# Load [N] of a wheel with which the source's friction of 0.15 gives its 10 kN.
+WHEEL_LOAD = 10.0e3 / 0.15
 
 
 @dataclass(frozen=True)
@@ -112,6 +115,20 @@ class CooperriderBogie:
                 raise WheelsetError(
                     f"CooperriderBogie: {field.name} = {value} must be a {bound} number in SI units"
                 )
+
+    def replace(self, name: str, value: float) -> CooperriderBogie:
+        """The bogie with one number changed, by its name, or "friction" [-], the coefficient that
+        with WHEEL_LOAD makes `friction_force`. Raises WheelsetError."""
+        if name == "friction":
+            name, value = "friction_force", value * WHEEL_LOAD
+        known = [field.name for field in fields(self)]
+        if name not in known:
+            raise unknown("number of the bogie:", name, known)
+        return replace(self, **{name: float(value)})
+
+    def dynamic_system(self, **options: Any) -> ExudynSystem:
+        """The bogie as a system for all analyses; options are those of ExudynSystem."""
+        return cooperrider_system(self, **options)
 
     def mass_matrix(self) -> Array:
         """Mass matrix (7, 7), diagonal [kg, kg m2]."""

@@ -25,6 +25,7 @@ from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.versions import versions
+from exudyn_wheelset.systems.source import Source
 from exudyn_wheelset.vehicles.description import Vehicle
 
 # Relative step of central differences: the cube root of the rounding unit balances the cut-off
@@ -67,6 +68,7 @@ class DynamicSystem(ABC):
     wheelset_names        labels of the wheelsets in the state names ("leading" of "leading: y
                           [m]"); empty where every body with y and yaw may be one
     trucks                labels of the wheelsets of each truck, by its name; empty for one truck
+    source                the description that `as_system` made it from
     """
 
     name: str
@@ -79,6 +81,7 @@ class DynamicSystem(ABC):
     stiff: bool = False
     wheelset_names: tuple[str, ...] = ()
     trucks: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    source: Source | None = None
 
     @property
     def size(self) -> int:
@@ -268,11 +271,14 @@ def as_system(vehicle: Any, **options: Any) -> DynamicSystem:
         # Exudyn is loaded only where a model is built in it.
         from exudyn_wheelset.systems.vehicle_system import vehicle_system
 
-        return vehicle_system(vehicle, **options)
+        made: DynamicSystem = vehicle_system(vehicle, **options)
+        made.source = Source(vehicle)
+        return made
     maker = getattr(vehicle, "dynamic_system", None)
     if callable(maker):
         system = maker(**options)
         if isinstance(system, DynamicSystem):
+            system.source = Source(vehicle)
             return system
     raise AnalysisError(
         f"{type(vehicle).__name__} cannot be analysed: pass a DynamicSystem (FunctionSystem for "

@@ -286,10 +286,10 @@ class Vehicle:
 
         "bodies.body.mass", "wheelsets.front leading.wheelset.radius", "contact.friction",
         "track.gauge", "connections.yaw damper.damping"; a last entry 0, 1, 2 or x, y, z picks one
-        of several numbers: "connections.primary.stiffness.y". Where no part has that name, all
-        are meant whose name begins or ends with it, as every "front left yaw damper" ends with
-        "yaw damper"; "*" means all. What is connected to an axle goes along with its place and
-        radius. Raises WheelsetError for what is not there, with the nearest.
+        of several numbers: "connections.primary.stiffness.y", xz the first and the last. Where
+        no part has that name, all are meant whose name begins or ends with it, as every "front
+        left yaw damper" ends with "yaw damper"; "*" means all. What is connected to an axle goes
+        along with its place and radius. Raises WheelsetError for what is not there, with the nearest.
         """
         from exudyn_wheelset.vehicles.paths import replaced
 

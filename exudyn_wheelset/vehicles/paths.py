@@ -47,6 +47,12 @@ def _replaced(node: Any, steps: list[str], value: Any, path: str) -> Any:
         return value
     step, rest = steps[0], steps[1:]
     if isinstance(node, tuple):
+        if step == "xz" and len(node) == 3:
+            # A body that spins has the same inertia about all axes across it.
+            return tuple(
+                _replaced(entry, rest, value, path) if place != 1 else entry
+                for place, entry in enumerate(node)
+            )
         if node and all(dataclasses.is_dataclass(entry) for entry in node):
             return _in_named(node, step, rest, value, path)
         place = _AXES.get(step, int(step) if step.isdigit() else len(node))

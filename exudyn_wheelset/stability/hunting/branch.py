@@ -7,7 +7,8 @@ the file alone. Speeds in m/s, periods in s, amplitudes are half of peak to peak
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -21,10 +22,13 @@ from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
 from exudyn_wheelset.stability.hunting.branch_plot import draw_branch
 from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.systems.source import Source
 from exudyn_wheelset.systems.system import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from exudyn_wheelset.stability.gradients import Gradient
 
 KIND = "branch of limit cycles"
 
@@ -38,6 +42,7 @@ class Fold(float):
     period      [s]
     index       of the point in the branch
     side        "lowest" (no cycle of the branch just below this speed) or "highest" (none above)
+    orbit       the motion there, whole; source: the description of the vehicle, if it is known
     """
 
     speed: float
@@ -45,9 +50,23 @@ class Fold(float):
     period: float
     index: int
     side: Literal["lowest", "highest"]
+    orbit: Orbit | None = field(default=None, repr=False)
+    source: Source | None = field(default=None, repr=False)
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> Fold:
         return super().__new__(cls, speed)
+
+    def gradient(self, names: Sequence[str] | None = None, vehicle: Any = None) -> Gradient:
+        """Derivative of the fold's speed by the numbers of the vehicle: name -> (m/s)/unit.
+
+        names: some of them, None for all; vehicle: the description, where the analysis was given
+        a system. Raises AnalysisError where orbit or description are not known.
+        """
+        from exudyn_wheelset.stability.gradients import fold_gradient, source_of
+
+        if self.orbit is None:
+            raise AnalysisError("this fold was found without an orbit: follow the branch anew")
+        return fold_gradient(source_of(self.source, vehicle), self.orbit, self.side, names)
 
 
 @brief
@@ -227,10 +246,11 @@ class Branch:
         ends = np.cumsum(arrays["intervals"] * degree + 1)[:-1]
         motions = np.split(arrays["motions"], ends)
         each = zip(meshes, motions, fields["period"], fields["speed"], strict=True)
+        orbits = [Orbit(m, x, float(period), float(v)) for m, x, period, v in each]
         return cls(
             **fields,
-            orbits=[Orbit(m, x, float(period), float(v)) for m, x, period, v in each],
-            folds=[Fold(*entry) for entry in record["folds"]],
+            orbits=orbits,
+            folds=[replace(Fold(*entry), orbit=orbits[entry[3]]) for entry in record["folds"]],
             changes=[StabilityChange(*entry) for entry in record["changes"]],
             hopf=tuple(record["hopf"]) if record["hopf"] else None,
             outcome=Outcome.read(record["outcomes"][1]),

@@ -33,7 +33,8 @@ from exudyn_wheelset.stability.hunting.branch import NamedColumns
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
-from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 KIND = "quasi-static descent"
 

@@ -28,7 +28,8 @@ from exudyn_wheelset.results.records import describe, read_record, write_record
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
-from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 KIND = "disturbance runs"
 Fate = Literal["hunts", "dies out", "lost contact"]

@@ -35,7 +35,8 @@ from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of_orbit
 from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
-from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 
 def limit_cycles(
@@ -132,6 +133,7 @@ def gather(
     uncertain = np.array(
         [v is None and not p.is_fold for v, p in zip(verdicts, points, strict=True)]
     )
+    orbits = [point.orbit.whole() for point in points]
     folds: list[Fold] = []
     for index, point in enumerate(points):
         if point.is_fold:
@@ -145,6 +147,8 @@ def gather(
                     float(point.orbit.period),
                     index,
                     "lowest" if beside > point.orbit.speed else "highest",
+                    orbits[index],
+                    system.source,
                 )
             )
     return Branch(
@@ -160,7 +164,7 @@ def gather(
         hopf=hopf,
         outcome=outcomes[1],
         first_outcome=outcomes[0],
-        orbits=[point.orbit.whole() for point in points],
+        orbits=orbits,
         record=record,
     )
 

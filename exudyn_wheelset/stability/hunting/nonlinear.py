@@ -14,9 +14,10 @@ trucks have several Hopf points close together and beat when all hunt; descent i
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -31,7 +32,11 @@ from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
-from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array, DynamicSystem
+
+if TYPE_CHECKING:
+    from exudyn_wheelset.stability.gradients import Gradient
 
 Method = Literal["continuation", "descent"]
 
@@ -87,6 +92,23 @@ class NonlinearCriticalSpeed(float):
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> NonlinearCriticalSpeed:
         return super().__new__(cls, speed)
+
+    def gradient(self, names: Sequence[str] | None = None, vehicle: Any = None) -> Gradient:
+        """Derivative of the speed by the numbers of the vehicle: name -> (m/s)/unit.
+
+        That of the fold, or of the Hopf point where it is supercritical; see `Fold.gradient`.
+        Raises AnalysisError where the speed is neither, and for a descent.
+        """
+        if self.speed == self.hopf.speed:
+            return self.hopf.gradient(names, vehicle)
+        for fold in getattr(self.branch, "folds", ()):
+            if fold.speed == self.speed:
+                gradient: Gradient = fold.gradient(names, vehicle)
+                return gradient
+        raise AnalysisError(
+            f"{self.speed:.4f} m/s is neither a fold nor a Hopf point, so it has no gradient: "
+            "ask for method='continuation'"
+        )
 
 
 def nonlinear_critical_speed(

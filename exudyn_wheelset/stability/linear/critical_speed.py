@@ -31,7 +31,8 @@ from exudyn_wheelset.stability.linear.spectra import (
     NEUTRAL_FRACTION,
     Spectra,
 )
-from exudyn_wheelset.systems.system import Array, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array
 
 # A window of instability between two speeds of the scan is looked for where the peak of the least
 # damping through three speeds comes this near to zero, as a share of the damping beside it.

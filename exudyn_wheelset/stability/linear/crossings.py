@@ -11,10 +11,10 @@ Speeds in m/s, eigenvalues in 1/s, frequencies in Hz.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from scipy.optimize import brentq
@@ -32,7 +32,12 @@ from exudyn_wheelset.stability.linear.spectra import (
     oscillatory_pairs,
     real_roots,
 )
-from exudyn_wheelset.systems.system import Array, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.source import Source
+from exudyn_wheelset.systems.system import Array
+
+if TYPE_CHECKING:
+    from exudyn_wheelset.stability.gradients import Gradient
 
 
 @brief
@@ -54,6 +59,7 @@ class CriticalPoint(float):
                  means for a creep law without a derivative
     law          what was measured of the creep law about the equilibrium, along the mode; None for
                  a divergence
+    source       the description it was found from, if the system knows it
     """
 
     speed: float
@@ -68,6 +74,7 @@ class CriticalPoint(float):
     mode_name: str = ""
     remarks: tuple[str, ...] = ()
     law: LawCheck | None = None
+    source: Source | None = field(default=None, repr=False)
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> CriticalPoint:
         return super().__new__(cls, speed)
@@ -76,6 +83,19 @@ class CriticalPoint(float):
     def direction(self) -> Literal["loses stability", "gains stability"]:
         """What a rising speed does to the root that crosses."""
         return "loses stability" if self.slope > 0.0 else "gains stability"
+
+    def gradient(self, names: Sequence[str] | None = None, vehicle: Any = None) -> Gradient:
+        """Derivative of the speed by the numbers of the vehicle: name -> (m/s)/unit.
+
+        names: some of them, None for all; vehicle: the description, where the analysis was given
+        a system. Raises AnalysisError for a divergence, and where no description is known.
+        """
+        from exudyn_wheelset.stability.gradients import hopf_gradient, source_of
+
+        if self.kind != "hopf":
+            raise AnalysisError("only the speed at which a pair crosses has a gradient here")
+        vehicle = source_of(self.source, vehicle)
+        return hopf_gradient(vehicle, self.speed, self.eigenvalue, self.state, names)
 
     @property
     def additivity(self) -> float | None:
@@ -239,6 +259,7 @@ def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalP
         mode_name=mode_name(spectra.system, mode, abs(eigenvalue.imag) / (2.0 * np.pi)),
         remarks=(law.remark,) if law.remark else (),
         law=law,
+        source=spectra.system.source,
     )
 
 

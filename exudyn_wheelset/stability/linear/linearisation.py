@@ -27,7 +27,8 @@ from exudyn_wheelset.stability.linear.modes import (
 )
 from exudyn_wheelset.stability.linear.neutral import neutral_name, separated
 from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, oscillates
-from exudyn_wheelset.systems.system import Array, DynamicSystem, as_system
+from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 
 @brief
