@@ -289,7 +289,8 @@ class Vehicle:
         of several numbers: "connections.primary.stiffness.y", xz the first and the last. Where
         no part has that name, all are meant whose name begins or ends with it, as every "front
         left yaw damper" ends with "yaw damper"; "*" means all. What is connected to an axle goes
-        along with its place and radius. Raises WheelsetError for what is not there, with the nearest.
+        along with its place and radius. Raises WheelsetError for what is not there, with the
+        nearest.
         """
         from exudyn_wheelset.vehicles.paths import replaced
 
