@@ -47,7 +47,7 @@ def displacements(system: DynamicSystem) -> dict[tuple[str, str], int]:
 
     The body of a system with one body is "". Empty for systems whose names say nothing of it.
     """
-    return _places(system.state_names)
+    return _places(tuple(system.state_names))
 
 
 @lru_cache(maxsize=64)
