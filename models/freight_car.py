@@ -4,7 +4,7 @@ Run `python models/freight_car.py`. It prints how the car stands, the modes of t
 linear critical speed over the friction of its wedges, and how it hunts, and keeps under runs/out/
 (or --out)
 
-    freight_car.png               critical speed over wedge friction; hunting; how a wedge works
+    freight_car.png               critical speed over wedge friction; hunting; what a wedge does
     freight_car_<load>_hunt.csv   the simulated motions, as pandas reads them
     freight_car.json              the numbers, with the vehicles and all versions
 
@@ -14,7 +14,7 @@ linear critical speed over the friction of its wedges, and how it hunts, and kee
     modes        of the stuck car at 20 m/s below 15 Hz: name, frequency [Hz], damping ratio
     neutral      how many states friction leaves open
     critical     linear critical speed [m/s] by wedge friction; null where none is found
-    hunt         speed [m/s], amplitude [mm] of the leading wheelset after the start and at the end,
+    hunt         speed [m/s], amplitude [mm] of the leading wheelset in the first and last second,
                  greatest strain of a wedge's hold (1: it slips), outcome
 """
 
@@ -39,31 +39,25 @@ from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.systems.simulation import simulate
 from exudyn_wheelset.vehicles.statics import static_equilibrium
 
-LOADS = {"empty": False, "loaded": True}
-FRICTIONS = (0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6)
+FRICTIONS = (0.0, 0.1, 0.2, 0.4, 0.6)
 MODES_AT = 20.0  # [m/s]
-# Speed over the linear critical one, first shift [m]: the empty car hunts below its Hopf point if
-# it is pushed to the flange, the loaded one sways above it.
+# Speed over the linear critical one, first shift [m]: pushed to the flange the empty car hunts
+# below its Hopf point; the loaded one sways above it.
 HUNTS = {"empty": (0.95, 8e-3), "loaded": (1.15, 3e-3)}
 HUNT = 6.0  # [s]
 WEDGE = "front left front wedge"
 
 
 def run(
-    *,
-    frictions: Sequence[float] = FRICTIONS,
-    wedge_friction: float = 0.4,
-    out: str | Path | None = None,
-    progress: bool = False,
+    *, wedge_friction: float = 0.4, out: str | Path | None = None, progress: bool = False,
     **changes: Any,
-) -> dict[str, Any]:
+) -> dict[str, Any]:  # fmt: skip
     """Everything the header names; changes: see `catalogue.Changes`."""
-    names = ("wheel_loads", "modes", "neutral", "critical", "hunt")
-    numbers: dict[str, Any] = {name: {} for name in names}
+    numbers: dict[str, Any] = {"wheel_loads": {}, "modes": {}, "neutral": {}, "critical": {}}
+    numbers["hunt"] = {}
     motions: dict[str, Motion] = {}
-    records = {}
-    for load, loaded in LOADS.items():
-        options = {"loaded": loaded, **changes}
+    for load, (share, shift) in HUNTS.items():
+        options = {"loaded": load == "loaded", **changes}
         car = catalogue.freight_car(wedge_friction=wedge_friction, **options)
         rest = static_equilibrium(car)
         numbers["wheel_loads"][load] = {n: list(pair) for n, pair in rest.wheel_loads.items()}
@@ -74,14 +68,13 @@ def run(
             if 0.05 < root.imag / (2.0 * np.pi) < 15.0
         ]
         numbers["neutral"][load] = sum(name.startswith("neutral") for name in stuck.mode_names)
-        numbers["critical"][load] = {f"{mu:g}": _critical(mu, **options) for mu in frictions}
-        critical = _critical(wedge_friction, **options) or MODES_AT
-        share, shift = HUNTS[load]
-        motions[load] = simulate(car, share * critical, HUNT, start=shift, progress=progress)
+        found = {mu: _critical(mu, **options) for mu in sorted({*FRICTIONS, wedge_friction})}
+        numbers["critical"][load] = {f"{mu:g}": speed for mu, speed in found.items()}
+        at = share * (found[wedge_friction] or MODES_AT)
+        motions[load] = simulate(car, at, HUNT, start=shift, progress=progress)
         numbers["hunt"][load] = _hunt(motions[load])
-        records[load] = motions[load].record
     if out is not None:
-        numbers["files"] = _keep(Path(out), numbers, motions, records)
+        numbers["files"] = _keep(Path(out), numbers, motions)
     return numbers
 
 
@@ -95,77 +88,62 @@ def _critical(wedge_friction: float, **options: Any) -> float | None:
 
 
 def _hunt(motion: Motion) -> dict[str, Any]:
-    lateral = motion["front leading: y"]
-    second = max(2, int(1.0 / (motion.time[1] - motion.time[0])))
-    holds = [name for name in motion.columns if "wedge" in name and name.endswith("hold")]
+    lateral, second = motion["front leading: y"], int(1.0 / (motion.time[1] - motion.time[0]))
+    holds = [values for name, values in motion.columns.items() if "wedge" in name]
     return {
         "speed": motion.speed,
-        "amplitude_mm": [
-            500.0 * float(np.ptp(part)) for part in (lateral[:second], lateral[-second:])
-        ],
-        "greatest_hold": max(float(np.abs(motion[name]).max()) for name in holds),
+        "amplitude_mm": [500.0 * float(np.ptp(y)) for y in (lateral[:second], lateral[-second:])],
+        "greatest_hold": max(float(np.abs(hold).max()) for hold in holds),
         "outcome": str(motion.outcome),
     }
 
 
-def _keep(
-    out: Path, numbers: dict[str, Any], motions: dict[str, Motion], records: dict[str, Any]
-) -> list[str]:
-    files = [
-        motion.write_csv(out / f"freight_car_{load}_hunt.csv") for load, motion in motions.items()
-    ]
-    figure, panels = new_figure(7.5, 9.0, rows=3)
-    over, hunting, wedge = panels[:, 0]
+def _keep(out: Path, numbers: dict[str, Any], motions: dict[str, Motion]) -> list[str]:
+    files = [motion.write_csv(out / f"freight_car_{k}_hunt.csv") for k, motion in motions.items()]
+    figure, ((over,), (hunting,), (wedge,)) = new_figure(7.5, 9.0, rows=3)
     for load, motion in motions.items():
         found = numbers["critical"][load]
         over.plot([float(mu) for mu in found], list(found.values()), "o-", markersize=3, label=load)
         label = f"{load}, {motion.speed:.1f} m/s"
-        lateral = motion["front leading: y"]
-        hunting.plot(motion.time, 1e3 * lateral, linewidth=0.9, label=label)
-        hold = next(n for n in motion.columns if n.endswith(f"{WEDGE} lateral hold"))
+        hunting.plot(motion.time, 1e3 * motion["front leading: y"], linewidth=0.9, label=label)
+        hold = next(n for n in motion.columns if f"{WEDGE} lateral hold" in n)
         sliding = motion["front bolster: y"] - motion["front left frame: y"]
-        wedge.plot(1e3 * sliding, motion[hold], linewidth=0.7, label=label)
-    over.set_xlabel("friction of the wedges [-]")
-    over.set_ylabel("linear critical speed [m/s]")
-    hunting.set_xlabel("time [s]")
-    hunting.set_ylabel("y of the leading wheelset [mm]")
-    wedge.set_xlabel("bolster against side frame, lateral [mm]")
-    wedge.set_ylabel("lateral friction over slip force [-]")
+        wedge.plot(1e3 * sliding, motion.columns[hold], linewidth=0.7, label=label)
+    over.set(xlabel="friction of the wedges [-]", ylabel="linear critical speed [m/s]")
+    hunting.set(xlabel="time [s]", ylabel="y of the leading wheelset [mm]")
+    wedge.set(xlabel="bolster against side frame [mm]", ylabel="friction over slip force [-]")
     for axes in (over, hunting, wedge):
         axes.legend(fontsize=8, frameon=False)
     files.append(write_figure(out / "freight_car.png", figure))
-    files.append(write_json(out / "freight_car.json", numbers, **records))
-    return [str(path) for path in files]
+    records = {load: motion.record for load, motion in motions.items()}
+    return [
+        str(path) for path in [*files, write_json(out / "freight_car.json", numbers, **records)]
+    ]
 
 
 def _show(numbers: dict[str, Any]) -> None:
-    for load in LOADS:
+    for load in HUNTS:
         left, right = numbers["wheel_loads"][load]["front leading"]
-        print(f"{load}: {left / 1e3:.2f}, {right / 1e3:.2f} kN on the leading wheels")
-        print(f"    stuck at {MODES_AT:g} m/s ({numbers['neutral'][load]} neutral states):")
+        print(f"{load}: {left / 1e3:.2f}, {right / 1e3:.2f} kN on the leading wheels; when stuck:")
         for name, frequency, damping in numbers["modes"][load][:6]:
             print(f"    {name:36} {frequency:6.2f} Hz, damping ratio {damping:+.4f}")
         for friction, speed in numbers["critical"][load].items():
-            said = "no linear critical speed" if speed is None else f"{speed:.2f} m/s"
-            print(f"    wedge friction {friction:5}: {said}")
+            print(
+                f"    wedge friction {friction:5}: linear critical speed {speed or np.nan:.2f} m/s"
+            )
         hunt = numbers["hunt"][load]
         first, last = hunt["amplitude_mm"]
-        print(
-            f"    at {hunt['speed']:.2f} m/s: {first:.2f} mm at first, {last:.2f} mm at the end, "
-            f"wedges to {hunt['greatest_hold']:.2f} of slipping; {hunt['outcome']}"
-        )
-    for path in numbers.get("files", ()):
-        print(path)
+        print(f"    at {hunt['speed']:.2f} m/s: {first:.2f} mm at first, {last:.2f} mm in the end")
+    print(*numbers.get("files", ()), sep="\n")
 
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
-    changes = {"friction": arguments.friction, "creep": arguments.creep}
-    return run(
-        wedge_friction=arguments.wedge_friction,
-        out=None if arguments.json else arguments.out,
-        progress=not arguments.json,
-        **{name: value for name, value in changes.items() if value is not None},
-    )
+    names = ("wedge_friction", "friction", "creep")
+    given = {
+        name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None
+    }
+    out = None if arguments.json else arguments.out
+    return run(out=out, progress=not arguments.json, **given)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
