@@ -8,7 +8,6 @@ from typing import Any
 
 import exudyn as exu
 import numpy as np
-from exudyn import graphics
 from exudyn.utilities import (
     LoadForceVector,
     LoadTorqueVector,
@@ -39,6 +38,7 @@ from exudyn_wheelset.coupling.registration import (
 )
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES, wheel_values
 from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
+from exudyn_wheelset.coupling.wheelset_shapes import wheelset_graphics
 
 SENSOR_VALUES = tuple(name for name, _ in WHEEL_VALUES)
 
@@ -233,49 +233,3 @@ def _sensor(contact: WheelRailContact, hand: int) -> Any:
         return row.tolist()
 
     return values
-
-
-def wheelset_graphics(wheelset: Wheelset) -> list[dict]:
-    """Axle and both wheels as bodies of revolution, for Exudyn's renderer."""
-    items = []
-    for hand, sign in enumerate((1.0, -1.0)):
-        profile = wheelset.wheel if hand == 0 else (wheelset.right_wheel or wheelset.wheel)
-        radius = wheelset.radius if hand == 0 else (wheelset.right_radius or wheelset.radius)
-        low, high = profile.span
-        y = np.linspace(low, high, 60)
-        outline = np.column_stack([wheelset.tape_half_distance + y, radius - profile.height(y)])
-        inner = 0.8 * radius
-        contour = np.vstack([[outline[0, 0], inner], outline, [outline[-1, 0], inner]])
-        contour[:, 0] *= sign
-        if sign < 0.0:
-            contour = contour[::-1]
-        items.append(
-            graphics.SolidOfRevolution(
-                pAxis=[0, 0, 0],
-                vAxis=[0, 1, 0],
-                contour=contour.tolist(),
-                color=[0.45, 0.48, 0.52, 1.0],
-                nTiles=64,
-            )
-        )
-        place = sign * (wheelset.tape_half_distance - 0.02)
-        items.append(
-            graphics.Cylinder(
-                pAxis=[0, place - 0.02, 0],
-                vAxis=[0, 0.04, 0],
-                radius=0.82 * radius,
-                color=[0.55, 0.58, 0.62, 1.0],
-                nTiles=48,
-            )
-        )
-    half = wheelset.tape_half_distance + 0.15
-    items.append(
-        graphics.Cylinder(
-            pAxis=[0, -half, 0],
-            vAxis=[0, 2 * half, 0],
-            radius=0.09,
-            color=[0.5, 0.5, 0.5, 1.0],
-            nTiles=32,
-        )
-    )
-    return items

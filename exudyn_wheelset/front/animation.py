@@ -115,7 +115,7 @@ def render(
     size (width, height) [pixels]; smooth: samples along each side of a pixel.
     """
     camera = camera or Camera()
-    _prepare(SC, size, smooth, camera.perspective)
+    _prepare(SC, size, smooth, camera)
     rotation = camera.rotation()
     state = SC.renderer.GetState()
     # The renderer takes the transposed rotation, the centre in picture axes and half the height.
@@ -177,7 +177,7 @@ def write_film(path: str | Path, frames: Sequence[np.ndarray], rate: float = 25.
     return write_atomically(Path(path), save)
 
 
-def _prepare(SC: Any, size: tuple[int, int], smooth: int, perspective: float) -> None:
+def _prepare(SC: Any, size: tuple[int, int], smooth: int, camera: Camera) -> None:
     settings = SC.visualizationSettings
     for group in ("nodes", "markers", "connectors", "loads", "sensors"):
         getattr(settings, group).show = False
@@ -185,7 +185,7 @@ def _prepare(SC: Any, size: tuple[int, int], smooth: int, perspective: float) ->
     view.scene.drawCoordinateSystem = 0
     view.window.renderWindowSize = list(size)
     view.window.showComputationInfo = False
-    view.camera.perspective = perspective
+    view.camera.perspective = camera.perspective
     general = settings.general
     general.autoFitScene = False
     general.showSolverInformation = False
@@ -193,7 +193,8 @@ def _prepare(SC: Any, size: tuple[int, int], smooth: int, perspective: float) ->
     general.showSolverTime = False
     general.backgroundColor = [0.93, 0.95, 0.97, 1.0]
     light = settings.openGL.light0
-    light.position = [-3.0, 3.0, 9.0, 0.0]
+    # From the camera's side, or what is seen lies in the shade.
+    light.position = [-3.0, -5.0 if np.sin(camera.azimuth) > 0.0 else 5.0, 7.0, 0.0]
     light.shadow = 0.5
     light.diffuse = 0.6
     settings.raytracer.multiSampling = smooth

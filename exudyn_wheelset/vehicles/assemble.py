@@ -37,6 +37,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import End
+from exudyn_wheelset.vehicles.links import add_links
 from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part
 from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
@@ -248,6 +249,9 @@ def add_vehicle(
     drawbar = _pull(mbs, rest, vehicle, [*wheelsets.values(), *bodies.values()], name)
     parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
+    if show:
+        names = [part.name for part in vehicle.parts]
+        add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)))
     connections = _own_items(mbs, rest, [*parts, ground], shift, len(wheelsets))
     centres = rest.centres + shift
     moved = Rest(rest.struts, rest.preloads, centres, rest.pose, rest.drawn, rest.axles)

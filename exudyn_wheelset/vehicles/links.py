@@ -7,7 +7,7 @@ not spin. Thickness and length are chosen to be seen.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,13 +18,14 @@ from exudyn.utilities import ObjectGround, VObjectGround
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.vehicles.description import GROUND, Axle, Body, Connection, Vehicle
-from exudyn_wheelset.vehicles.shapes import kind_of
+from exudyn_wheelset.vehicles.shapes import kind_of, outside
 
 _SPRING, _CASE, _ROD = [0.82, 0.62, 0.16, 1.0], [0.16, 0.17, 0.19, 1.0], [0.70, 0.71, 0.73, 1.0]
 _LEAF, _WEDGE = [0.30, 0.31, 0.33, 1.0], [0.55, 0.45, 0.30, 1.0]
 # A bearing or adapter so stiff [N/m] is no coil to be seen.
 _RIGID = 4.0e7
-_WINDINGS, _POINTS_EACH = 5, 10
+_WINDINGS, _POINTS_EACH = 5, 8
+_AHEAD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -47,19 +48,13 @@ def links_of(vehicle: Vehicle) -> list[Link]:
     return found
 
 
-def add_links(
-    mbs: Any, vehicle: Vehicle, nodes: Mapping[str, int], shift: Sequence[float]
-) -> int | None:
-    """Add what draws the connections to `mbs`; nodes by part; its object, None for nothing to draw.
-
-    shift (3) [m]: of the drawing in the model.
-    """
+def add_links(mbs: Any, vehicle: Vehicle, nodes: Mapping[str, int]) -> int | None:
+    """Add what draws the connections to `mbs`; nodes by part; its object, None for none."""
     links = links_of(vehicle)
     if not links:
         return None
     centres = {part.name: np.array(part.centre) for part in vehicle.parts}
     axles = {axle.name for axle in vehicle.wheelsets}
-    # Node and body have the same height only after the wheelsets are put on their rails.
     arms = [
         (link, link.places[0] - centres[link.lower], link.places[1] - centres[link.upper])
         for link in links
@@ -99,8 +94,9 @@ def _links(vehicle: Vehicle, one: Connection) -> list[Link]:
     if kind == "TractionRod":
         return [Link("rod", one.lower, one.upper, np.array([lower, upper]), 0.03)]
     if kind in ("LeafSpring", "LinkSuspension"):
-        up = np.array([0.0, 0.0, 0.18])
-        return [Link("leaves", one.lower, one.upper, np.array([lower + up, upper + 2.5 * up]), 0.6)]
+        places = np.array([lower, upper]) + np.outer((0.16, 0.45), _UP)
+        places[:, 1] = outside(places[:, 1])
+        return [Link("leaves", one.lower, one.upper, places, 0.6)]
     if kind == "FrictionWedge":
         up = np.array([0.0, 0.0, 0.11])
         return [Link("block", one.lower, one.upper, np.array([lower - up, upper + up]), 0.08)]
@@ -136,14 +132,16 @@ def _coils(
         # From the top of the axle box up to the beam of the frame.
         ends, radius = (0.14, 0.38), 0.085
     elif isinstance(below, Body) and kind_of(vehicle, below) == "side frame":
-        nest = []
-        for along in (-0.19, 0.0, 0.19):
-            places = np.array([lower + [along, 0.0, -0.13], upper + [along, 0.0, 0.14]])
-            nest.append(Link("coil", one.lower, one.upper, places, 0.07))
-        return nest
+        nest = [
+            np.array([lower, upper]) + moved for moved in ((-0.19, 0, 0), (0, 0, 0), (0.19, 0, 0))
+        ]
+        apart = np.outer([-0.13, 0.14], _UP)
+        return [Link("coil", one.lower, one.upper, places + apart, 0.07) for places in nest]
     else:
         ends, radius = (-0.18, 0.12), 0.13
-    places = np.array([lower + [0.0, 0.0, ends[0]], upper + [0.0, 0.0, ends[1]]])
+    places = np.array([lower, upper]) + np.outer(ends, _UP)
+    if on_axle:
+        places[:, 1] = outside(places[:, 1])
     return [Link("coil", one.lower, one.upper, places, radius)]
 
 
@@ -202,13 +200,14 @@ def _leaves(start: Array, end: Array, half: float) -> list[dict[str, Any]]:
     items = []
     for k in range(5):
         reach = half * (1.0 - 0.17 * (4 - k))
-        middle = start + [0.0, 0.0, 0.022 * k]
+        middle = start + 0.022 * k * _UP
         for sign in (1.0, -1.0):
-            tip = middle + [sign * reach, 0.0, 0.10 * (reach / half) ** 2]
+            tip = middle + sign * reach * _AHEAD + 0.10 * (reach / half) ** 2 * _UP
             items.append(_bar(middle, tip, 0.018))
     for sign in (1.0, -1.0):
-        eye = start + [sign * half, 0.0, 0.19]
-        items.append(_cylinder(eye, end + [1.06 * sign * half, 0.0, 0.0] - eye, 0.02, _ROD))
+        eye = start + sign * half * _AHEAD + 0.19 * _UP
+        hung = end + 1.06 * sign * half * _AHEAD
+        items.append(_cylinder(eye, hung - eye, 0.02, _ROD))
     return items
 
 

@@ -1,9 +1,10 @@
 """Shapes to draw for the bodies of a vehicle in Exudyn's renderer: what they are is guessed from
 what they are connected with; no dimension is a true one.
 
-A body that reaches over wheelsets or trucks is a car body: a coach, or a hopper or wagon where there
-is dry friction. What carries both ends of axles is a truck frame, what carries one end of two axles
-a side frame, what is on one axle end an axle box, what is between is a bolster.
+A body that reaches over wheelsets or trucks is a car body: a coach, or a hopper or wagon where
+there is dry friction. What carries both ends of axles is a truck frame, what carries one end of two
+axles a side frame, what is on one axle end an axle box, what is between is a bolster. Axle boxes
+are drawn outside of the wheels wherever they are.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from exudyn import graphics
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.vehicles.description import GROUND, Axle, Body, Vehicle
+from exudyn_wheelset.vehicles.description import GROUND, Body, Vehicle
 
 Colour = list[float]
 _COACH, _STRIPE, _ROOF = [0.80, 0.82, 0.80, 1.0], [0.62, 0.14, 0.13, 1.0], [0.60, 0.62, 0.64, 1.0]
@@ -25,9 +26,16 @@ _HOPPER, _RIB, _LOAD = [0.46, 0.22, 0.16, 1.0], [0.38, 0.18, 0.13, 1.0], [0.13, 
 _FRAME, _CAST, _BOX = [0.20, 0.34, 0.33, 1.0], [0.27, 0.27, 0.28, 1.0], [0.36, 0.37, 0.38, 1.0]
 # A body whose connections lie farther apart [m] is a car body.
 _LONG = 4.0
+# Half of the distance of axle boxes [m], at least.
+_BOXES = 0.98
 # Heavier ones of dry friction carry a load [kg].
 _LOADED = 3.0e4
 RUBBING = ("FrictionWedge", "CoilNest", "LeafSpring", "LinkSuspension", "CentrePlate")
+
+
+def outside(y: Any) -> Any:
+    """Lateral places [m] of axle boxes, moved out of the wheels."""
+    return np.sign(y) * np.maximum(np.abs(y), _BOXES)
 
 
 @dataclass(frozen=True)
@@ -49,7 +57,8 @@ class Reach:
             if other != GROUND:
                 near.append(one.at)
             if other in axles:
-                on_axles.append(one.at)
+                x, y, z = one.at
+                on_axles.append((x, outside(y), z))
         return cls(np.array(near).reshape(-1, 3), np.array(on_axles).reshape(-1, 3))
 
 
@@ -142,9 +151,7 @@ class _Pencil:
         )
 
 
-def _car_body(
-    pencil: _Pencil, vehicle: Vehicle, reach: Reach, body: Body
-) -> list[dict[str, Any]]:
+def _car_body(pencil: _Pencil, vehicle: Vehicle, reach: Reach, body: Body) -> list[dict[str, Any]]:
     x = reach.places[:, 0]
     axles = [axle.x for axle in vehicle.wheelsets]
     overhang = min(max(0.16 * float(np.ptp(x)), 1.2), 3.2)
@@ -154,7 +161,11 @@ def _car_body(
     floor = max(float(np.median(reach.places[:, 2])) + 0.12, 2.0 * radius + 0.12)
     rubs = any(type(one.element).__name__ in RUBBING for one in vehicle.connections)
     draw = _freight if rubs else _coach
-    return draw(pencil, (rear, front), floor, body.mass > _LOADED, len(reach.on_axles) > 0)
+    on_axles = len(reach.on_axles) > 0
+    items = draw(pencil, (rear, front), floor, body.mass > _LOADED, on_axles)
+    for place in np.unique(np.round(reach.on_axles, 3), axis=0):
+        items += _box(pencil, place)
+    return items
 
 
 def _coach(
@@ -167,7 +178,9 @@ def _coach(
         for angle in np.linspace(0.0, np.pi, 17)
     ]
     items = [
-        pencil.along_x([(-half, floor), (half, floor), (half, eaves), (-half, eaves)], ends, _COACH),
+        pencil.along_x(
+            [(-half, floor), (half, floor), (half, eaves), (-half, eaves)], ends, _COACH
+        ),
         pencil.along_x(roof, ends, _ROOF),
         pencil.brick((rear, -1.435, floor + 0.1), (front, 1.435, floor + 0.42), _STRIPE),
         pencil.brick((0.3 * rear, -1.1, floor - 0.45), (0.3 * front, 1.1, floor), _UNDER),
@@ -214,7 +227,12 @@ def _freight(
         # The end sheets slope from above the trucks, the bays end between them.
         side[2:] = [(front, floor + 1.7), (front, top), (rear, top), (rear, floor + 1.7)]
         bays = 0.55 * (front - slope)
-        outline = [(-0.7 * bays, floor - 0.45), (0.7 * bays, floor - 0.45), (bays, sill), (-bays, sill)]
+        outline = [
+            (-0.7 * bays, floor - 0.45),
+            (0.7 * bays, floor - 0.45),
+            (bays, sill),
+            (-bays, sill),
+        ]
         items.append(pencil.along_y(outline, (-1.0, 1.0), _RIB))
     items.append(pencil.along_y(side, (-half + 0.06, half - 0.06), _HOPPER))
     count = max(int((front - rear - 2.0 * slope) / 1.15), 1) + 1
@@ -229,13 +247,18 @@ def _freight(
             low = (min(end, inward), -half, sill)
             high = (max(end, inward), -half + 0.12, floor + 1.7)
             items.append(pencil.brick(low, high, _RIB))
-            items.append(
-                pencil.brick((low[0], half - 0.12, sill), (high[0], half, high[2]), _RIB)
-            )
-        items.append(pencil.brick((end, -0.15, floor - 0.2), (end + 0.5 * sign, 0.15, floor), _CAST))
+            items.append(pencil.brick((low[0], half - 0.12, sill), (high[0], half, high[2]), _RIB))
+        items.append(
+            pencil.brick((end, -0.15, floor - 0.2), (end + 0.5 * sign, 0.15, floor), _CAST)
+        )
     if loaded:
         length = 0.5 * (front - rear) - 0.25
-        heap = [(-length, top), (length, top), (0.7 * length, top + 0.3), (-0.7 * length, top + 0.3)]
+        heap = [
+            (-length, top),
+            (length, top),
+            (0.7 * length, top + 0.3),
+            (-0.7 * length, top + 0.3),
+        ]
         middle = 0.5 * (front + rear)
         heap = [(middle + along, z) for along, z in heap]
         items.append(pencil.along_y(heap, (-half + 0.15, half - 0.15), _LOAD))
@@ -254,9 +277,7 @@ def _frame(pencil: _Pencil, vehicle: Vehicle, reach: Reach, body: Body) -> list[
     low, high = axle + 0.38, axle + 0.54
     items = []
     for side in (half, -half):
-        items.append(
-            pencil.brick((rear, side - 0.09, low), (front, side + 0.09, high), _FRAME)
-        )
+        items.append(pencil.brick((rear, side - 0.09, low), (front, side + 0.09, high), _FRAME))
     across = (-half, half)
     wide = 0.28 if front - rear > 1.5 else 0.1
     items.append(
