@@ -220,6 +220,14 @@ def test_pressures_are_derivatives_of_their_potential(element):
             assert force[axis] == pytest.approx(-slope, rel=1e-4, abs=1.0)
 
 
+def test_links_stay_plumb_below_a_body_that_rolls():
+    """Turned about the ends of its links the body feels its load along the vertical, no more."""
+    element = LinkSuspension(1.0e6, length=(0.4, 0.25), friction=(0.03, 0.02))
+    driven = DrivenElement(element, (0, 0, 6e4, 0, 0, 0))
+    rolled = driven.force(*along(3, 0.05, 0.0))[0]
+    assert rolled == pytest.approx([0, 0, 6e4, 0, 0, 0], abs=1e-6)
+
+
 def test_coil_nest_is_its_coils_and_two_wedges():
     """One part: the coils' stiffness, twice the wedges' slip force, and a moment against warp."""
     wedge = FrictionWedge(32.0, 0.4, 2.0e4)

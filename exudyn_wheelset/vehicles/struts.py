@@ -99,6 +99,7 @@ def struts_of(vehicle: Vehicle, centres: Array) -> list[Strut]:
             length = float(np.linalg.norm(line))
             stiffness = law.static_stiffness(line / length if length > 0.0 else line)
             own_axes = layout.OF_MIDDLE if law.middle else axes
+            own_axes = layout.OF_TRACK if law.upright else own_axes
             found.append(Strut(one, law, *ends, own_axes, at, stiffness))
     return found
 

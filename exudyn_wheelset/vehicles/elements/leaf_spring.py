@@ -2,8 +2,8 @@
 
 F = N (1 - e h), N = k c its elastic force, h the hold of the leaves: loaded and unloaded slowly it
 follows k c (1 + e) and k c (1 - e), and goes over from one to the other exponentially within
-`presliding`, as P. Fancher et al. measured it (SAE Paper 800905, 1980). Springs and dampers along
-and across are linear.
+`presliding`, as P. Fancher et al. measured it (SAE Paper 800905, 1980). The load keeps to the
+vertical of the track. Springs and dampers along and across are linear.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class LeafSpring(Element):
             stiffness=z,
             damping_time=self.damping_time,
         )
-        leaves = Law(layout.FRICTION, friction=friction)
+        leaves = Law(layout.FRICTION, friction=friction, upright=True)
         if not (x or y or any(self.damping)):
             return (leaves,)
         return (leaves, Law(layout.SPRING, stiffness=(x, y, 0.0), damping=self.damping))

@@ -7,7 +7,8 @@ compresses the spring further, so that a load N brings the body back by N x/L_x,
 they resist first with the slip force (friction) N, after J. Piotrowski, Model of the UIC link
 suspension for freight wagons, Archive of Applied Mechanics 73 (2003) 517-532, who has one spring in
 series with dry friction beside the pendulum; here that spring yields gradually. Leaves rub
-vertically as in leaf_spring.py.
+vertically as in leaf_spring.py. Links are plumb at rest: all acts along the axes of the track, so
+that a body that rolls about its ends of the links is not pushed aside.
 """
 
 from __future__ import annotations
@@ -87,7 +88,7 @@ class LinkSuspension(Element):
             lengths=self.length,
             damping_time=self.damping_time,
         )
-        hung = Law(layout.FRICTION, friction=friction)
+        hung = Law(layout.FRICTION, friction=friction, upright=True)
         if not any(self.damping):
             return (hung,)
         return (hung, Law(layout.SPRING, damping=self.damping))

@@ -66,7 +66,7 @@ class Law:
     `direction`, with a stop over displacement and a blow-off table, in series with a spring if
     `state` is given), ROD (along the line of its ends) or FRICTION (friction_kernel.py, what
     `friction` says). shift (3) [m]: of both ends from the element's places. middle: axes half way
-    between both bodies.
+    between both bodies. upright: axes of the track, for what hangs or stands by its load.
     """
 
     kind: int
@@ -80,6 +80,7 @@ class Law:
     friction: Friction | None = None
     shift: Vector = (0.0, 0.0, 0.0)
     middle: bool = False
+    upright: bool = False
 
     @property
     def states(self) -> tuple[FirstOrderState, ...]:
