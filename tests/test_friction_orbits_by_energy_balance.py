@@ -1,0 +1,70 @@
+"""Limit cycles with dry friction against the balance of energy: continuation through the kinks.
+
+A weakly damped oscillator, y'' + w^2 y = c(V) y' - F h/m, h' = (v - |v| h)/delta, moves nearly as
+a sine: negative damping gives pi c w A^2 a cycle, friction takes 4 F A - 4 F delta
+tanh(A/delta) (per mass). Both are equal on the orbits: a stable one that begins at c = 0 and a
+larger, unstable one, which meet where the loss over A^2 is greatest. Friction is weak here, so
+that the sine is good to the tolerance asked: the stiffness of the hold is 4 % of the spring's.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from exudyn_wheelset import FunctionSystem, hopf_points, limit_cycles
+
+FREQUENCY, SLIP, PRESLIDING, RATE, FIRST = 10.0, 4.0e-3, 1.0e-3, 2.0e-3, 20.0
+
+
+def rates(state, speed):
+    """Oscillator with negative damping RATE (V - FIRST) and friction."""
+    y, v, hold = state
+    driven = RATE * (speed - FIRST) * v
+    slipping = (v - abs(v) * hold) / PRESLIDING
+    return np.array([v, -(FREQUENCY**2) * y + driven - SLIP * hold, slipping])
+
+
+def loss(amplitude):
+    """Work of friction a cycle, per mass."""
+    return 4.0 * SLIP * (amplitude - PRESLIDING * np.tanh(amplitude / PRESLIDING))
+
+
+@pytest.fixture(scope="module")
+def branch():
+    system = FunctionSystem(
+        "oscillator with dry friction",
+        rates,
+        ["y [m]", "vy [m/s]", "friction hold [-]"],
+        [1e-3, 1e-2, 0.1],
+        displacement_indices=[0],
+    )
+    (hopf,) = hopf_points(system, 10.0, 40.0)
+    assert hopf.speed == pytest.approx(FIRST, abs=1e-6)
+    assert hopf.frequency * 2.0 * np.pi == pytest.approx(
+        np.sqrt(FREQUENCY**2 + SLIP / PRESLIDING), rel=1e-9
+    )
+    return limit_cycles(system, hopf, (10.0, 200.0), intervals=30, maximum_points=45)
+
+
+def test_orbits_balance_their_energy(branch):
+    amplitudes = np.asarray(branch.amplitude)[:, 0]
+    given = np.pi * RATE * (branch.speed - FIRST) * (2.0 * np.pi / branch.period) * amplitudes**2
+    large = amplitudes > 0.01 * PRESLIDING
+    assert np.count_nonzero(large) > 10
+    assert given[large] == pytest.approx(loss(amplitudes[large]), rel=0.01)
+
+
+def test_stable_and_unstable_orbit_meet_where_the_loss_is_greatest(branch):
+    """The greatest negative damping that friction bounds: max of the loss over pi w A^2."""
+    best = minimize_scalar(
+        lambda a: -loss(a) / a**2, bounds=(0.1 * PRESLIDING, 10.0 * PRESLIDING), method="bounded"
+    )
+    place = int(np.argmax(branch.speed))
+    frequency = 2.0 * np.pi / branch.period[place]
+    expected = FIRST - best.fun / (np.pi * frequency * RATE)
+    assert len(branch.folds) == 1
+    assert branch.folds[0].speed == pytest.approx(expected, rel=0.01)
+    assert np.all(np.asarray(branch.stable[1 : place - 1], dtype=bool))
+    assert not np.any(np.asarray(branch.stable[place + 2 :], dtype=bool))
