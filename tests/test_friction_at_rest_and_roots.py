@@ -25,11 +25,13 @@ from exudyn_wheelset import (
     VehicleBuilder,
     Wheelset,
     catalogue,
+    linear_critical_speed,
     linearise,
     static_equilibrium,
     with_free_lengths,
 )
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
+from exudyn_wheelset.vehicles.description import Load
 from exudyn_wheelset.vehicles.rest import find_rest
 
 CARS = {
@@ -209,6 +211,24 @@ def test_stuck_car_has_the_roots_of_the_holds_stiffness(loaded):
     stiffness = wedge.friction * wedge.column_force / wedge.presliding
     damped = with_springs_for_wedges(car, stiffness, stiffness * wedge.damping_time)
     assert_same_roots(roots(car), roots(damped), 1e-5)
+
+
+def test_the_load_lowers_the_stuck_cars_critical_speed_by_its_inertia():
+    """The load's weight as a force on the empty body leaves the empty car its speed (docs).
+
+    Its mass takes it down by a third and more.
+    """
+    loaded, empty = catalogue.freight_car(True), catalogue.freight_car(False)
+    heavy, light = loaded.part("body"), empty.part("body")
+    swapped = replace(heavy, mass=light.mass, inertia=light.inertia)
+    pressed = replace(
+        loaded,
+        bodies=tuple(swapped if body == heavy else body for body in loaded.bodies),
+        loads=(Load("body", (0.0, 0.0, 9.81 * (light.mass - heavy.mass)), heavy.centre),),
+    )
+    speeds = [linear_critical_speed(car, 15.0, 45.0, points=11) for car in (loaded, empty, pressed)]
+    assert speeds[2] == pytest.approx(float(speeds[1]), rel=0.02)
+    assert speeds[0] < 0.67 * speeds[1]
 
 
 def test_every_hold_is_a_neutral_state_by_its_name():
