@@ -46,6 +46,7 @@ MODES_AT = 20.0  # [m/s]
 HUNTS = {"empty": (0.95, 8e-3), "loaded": (1.15, 3e-3)}
 HUNT = 6.0  # [s]
 WEDGE = "front left front wedge"
+NUMBERS = ("wheel_loads", "modes", "neutral", "critical", "hunt")
 
 
 def run(
@@ -53,8 +54,7 @@ def run(
     **changes: Any,
 ) -> dict[str, Any]:  # fmt: skip
     """Everything the header names; changes: see `catalogue.Changes`."""
-    numbers: dict[str, Any] = {"wheel_loads": {}, "modes": {}, "neutral": {}, "critical": {}}
-    numbers["hunt"] = {}
+    numbers: dict[str, Any] = {name: {} for name in NUMBERS}
     motions: dict[str, Motion] = {}
     for load, (share, shift) in HUNTS.items():
         options = {"loaded": load == "loaded", **changes}

@@ -13,7 +13,14 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from exudyn_wheelset import FunctionSystem, hopf_points, limit_cycles
+from exudyn_wheelset import (
+    FunctionSystem,
+    catalogue,
+    hopf_points,
+    limit_cycles,
+    linear_critical_speed,
+)
+from exudyn_wheelset.systems.system import as_system
 
 FREQUENCY, SLIP, PRESLIDING, RATE, FIRST = 10.0, 4.0e-3, 1.0e-3, 2.0e-3, 20.0
 
@@ -68,3 +75,23 @@ def test_stable_and_unstable_orbit_meet_where_the_loss_is_greatest(branch):
     assert branch.folds[0].speed == pytest.approx(expected, rel=0.01)
     assert np.all(np.asarray(branch.stable[1 : place - 1], dtype=bool))
     assert not np.any(np.asarray(branch.stable[place + 2 :], dtype=bool))
+
+
+def test_friction_bounds_the_hunting_of_a_wagon_and_simulation_keeps_its_orbit():
+    """From the stuck wagon's Hopf point a stable branch of small orbits.
+
+    Five periods by Runge-Kutta from one of them keep its amplitude.
+    """
+    system = as_system(catalogue.two_axle_wagon())
+    hopf = linear_critical_speed(system, 15.0, 40.0, points=12)
+    branch = limit_cycles(system, hopf, (20.0, 27.0), intervals=20)
+    sway = branch.amplitude["body: y"]
+    assert np.all(np.asarray(branch.stable, dtype=bool))
+    assert np.all(np.diff(sway) > 0.0)
+    assert 5e-5 < sway[-1] < 1e-3
+    orbit = branch.orbits[-1]
+    times = np.linspace(0.0, 5.0 * orbit.period, 501)
+    motion = system.simulate(orbit.states[0], orbit.speed, times)
+    body = system.state_names.index("body: y [m]")
+    for cycle in (motion[:101, body], motion[-101:, body]):
+        assert 0.5 * np.ptp(cycle) == pytest.approx(sway[-1], rel=0.02)
