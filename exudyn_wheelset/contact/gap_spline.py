@@ -171,9 +171,17 @@ def _cell(coefficients, k):
 
 
 @compiled(inline="always")
+def _cell_at(load, at):
+    """Number of the cell in which a place is, of the range's first or last one beyond its ends."""
+    if not at > load.low:
+        return load.low
+    return int(at) if at < load.high else load.high
+
+
+@compiled(inline="always")
 def spline_depth(gap, load, at):
     """p [m] at a place."""
-    k = int(min(max(at, load.low), load.high))
+    k = _cell_at(load, at)
     a0, a1, a2, a3 = _cell(gap[GAP_COEFFICIENT], k)
     u = at - k
     return a0 + u * (a1 + u * (a2 + u * a3))
@@ -182,7 +190,7 @@ def spline_depth(gap, load, at):
 @compiled(inline="always")
 def primitives_at(gap, load, at):
     """p and its three primitives in units of h, at a place near the load's (or lobe's) range."""
-    k = int(min(max(at, load.low), load.high))
+    k = _cell_at(load, at)
     a0, a1, a2, a3 = _cell(gap[GAP_COEFFICIENT], k)
     u = at - k
     one = gap[GAP_FIRST, k]
@@ -285,10 +293,17 @@ def _weights(c, b, first, weights, parts):
 def line_weights(load, start, per, work):
     """Fill `work.parts` with a load's parts on the lines of the grid, of a sum of 1.
 
-    Returns (first line, number of lines).
+    Returns (first line, number of lines). Of a load that reaches beyond where p is known, which is
+    none that a rail can carry, the part inside.
     """
     b = load.b * per
     c = (load.place - start) * per
+    low, high = load.low, load.high + 1.0
+    if not (c - b >= low and c + b <= high):
+        begin = c - b if low < c - b < high - 1.0 else low
+        end = c + b if begin + 1.0 < c + b < high else high
+        c = 0.5 * (begin + end)
+        b = 0.5 * (end - begin)
     first = int(c - b) - 2
     count = int(c + b) + 4 - first
     _weights(c, b, first, work.parts[1], work.parts[0, :count])

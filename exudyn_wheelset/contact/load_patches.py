@@ -36,6 +36,7 @@ def _wrench(table, side, load, axle, work, wrench):
 def _arc_in_the_middle(side, load, gap):
     """The wheel's arc length at the load's place."""
     at = (load.place - side.line_start) / side.line_spacing
+    at = at if load.low < at < load.high else 0.5 * (load.low + load.high)
     k = int(at)
     arcs = gap[GAP_ARC]
     return arcs[k] + (at - k) * (arcs[k + 1] - arcs[k])

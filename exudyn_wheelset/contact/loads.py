@@ -22,7 +22,9 @@ SURELY_SUNK = 0.7
 # A second load that gains less has not been found where it is.
 NO_GAIN = 1.0e-5
 # p is sampled to where it has fallen to this part of the depth.
-NEAR = 0.2
+NEAR = 0.0
+# How far into one another two loads of a lobe reach, over the mean of their widths.
+OVERLAP = 0.33
 # Two lobes are one, equation (3), while the valley between them is less than MERGED_FROM of their
 # depth deep, and two from MERGED_UP_TO on.
 MERGED_FROM, MERGED_UP_TO = 0.03, 0.2
@@ -163,11 +165,13 @@ def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, wo
     b = math.exp((1.0 - weight) * math.log(one.b) + weight * math.log(0.75 * near))
     place = one.place + weight * (lobe.foot - one.place)
     depth = lobe.penetration
-    rest = lobe.foot + hand * far - (place + hand * b)
-    second = b * min((misfit / 0.09) ** 2, 2.5)
-    second = min(max(second, 0.1 * b), 0.42 * abs(rest))
+    zone = lobe.foot + hand * far / TO_ZERO
+    second = 0.4 * b
+    for _ in range(2):
+        inner = place + hand * (b - OVERLAP * math.sqrt(b * second))
+        second = max(0.5 * hand * (zone - inner) * min(misfit / 0.1, 1.0), 0.1 * b)
+    at = inner + hand * second
     _begin(table, side, one, lobe, place, b, depth, modulus)
-    at = place + hand * (b + 0.5 * second)
     p = spline_depth(work.gap, lobe, (at - side.line_start) / side.line_spacing)
     two = loads[count]
     _begin(table, side, two, lobe, at, second, max(0.5 * p, 0.02 * depth), modulus)
