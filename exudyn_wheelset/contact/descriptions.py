@@ -20,6 +20,8 @@ from exudyn_wheelset.checking import moments_of_inertia, number, positive, unkno
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.track.irregularity import Irregularity
+from exudyn_wheelset.track.layout import Layout
 
 ProfileSource = Profile | str | PathLike
 
@@ -172,6 +174,8 @@ class Track:
     inclination [-] turns the rails about the head centre towards the track centre (1/40, 1/20, or
     0 for a profile that is already inclined). right_rail defaults to the left one.
     Instead of the gauge, datum_half_distance [m] may place the rails' highest points directly.
+    layout: how the track lies, None for straight and level for ever; irregularity: how far the
+    rails lie off that, None for not at all.
     """
 
     rail: Profile
@@ -181,6 +185,8 @@ class Track:
     right_rail: Profile | None = None
     datum_half_distance: float | None = None
     origin_half_distance: float | None = field(default=None)
+    layout: Layout | None = None
+    irregularity: Irregularity | None = None
 
     def __init__(
         self,
@@ -191,7 +197,16 @@ class Track:
         right_rail: ProfileSource | None = None,
         datum_half_distance: float | None = None,
         origin_half_distance: float | None = None,
+        layout: Layout | None = None,
+        irregularity: Irregularity | None = None,
     ) -> None:
+        if not isinstance(layout, Layout | None):
+            raise WheelsetError(f"layout = {layout!r}: give a Layout([Straight(...), ...])")
+        if not isinstance(irregularity, Irregularity | None):
+            raise WheelsetError(
+                f"irregularity = {irregularity!r}: give an Irregularity, from_psd, from_points or "
+                "from_functions"
+            )
         if datum_half_distance is not None and origin_half_distance is not None:
             raise WheelsetError("give datum_half_distance or origin_half_distance, not both")
         put = object.__setattr__
@@ -207,6 +222,8 @@ class Track:
             ("origin_half_distance", origin_half_distance),
         ):
             put(self, what, None if value is None else positive(what, value, "m", 2.0))
+        put(self, "layout", layout)
+        put(self, "irregularity", irregularity)
 
     @cached_property
     def left_placement(self) -> RailPlacement:

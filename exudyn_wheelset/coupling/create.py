@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import exudyn as exu
@@ -36,9 +37,11 @@ from exudyn_wheelset.coupling.registration import (
     register_wheelset,
     unused_name,
 )
+from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES, wheel_values
-from exudyn_wheelset.coupling.wheel_rail import Irregularity, WheelRailContact
 from exudyn_wheelset.coupling.wheelset_shapes import wheelset_graphics
+from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
+from exudyn_wheelset.track.irregularity import Irregularity
 
 SENSOR_VALUES = tuple(name for name, _ in WHEEL_VALUES)
 
@@ -63,6 +66,7 @@ def create_wheelset(
     poisson: float = Contact.poisson,
     damping: float = Contact.damping,
     irregularity: Irregularity | None = None,
+    frame: TrackFrame | None = None,
     rail_elasticity: RailElasticity | None = None,
     sensors: bool = True,
     show: bool = True,
@@ -78,7 +82,8 @@ def create_wheelset(
     rails' rigid contact, about the static penetration); lateral_offset [m] and yaw [rad]: initial
     displacement. gravity [m/s^2] downwards. contact: a Contact, or its numbers by keyword
     (normal, creep, friction, shear_modulus, poisson, damping and the law's own parameters).
-    irregularity: see WheelRailContact; rail_elasticity: springs and dampers under each rail
+    irregularity: of the rails, in place of the track's; frame: a TrackFrame that several wheelsets
+    share, as those of a vehicle; rail_elasticity: springs and dampers under each rail
     (coupling/elastic_rails.py). name: a number is added to it if the model has such a wheelset
     already.
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
@@ -88,7 +93,9 @@ def create_wheelset(
     check_kinds(mbs, wheelset, track, contact)
     check_motion(speed, gravity, {"moving_frame": moving_frame, "sensors": sensors, "show": show})
     check_place(guidance(wheelset, track), position, height, lateral_offset, yaw)
-    check_rails(irregularity, rail_elasticity, float(position[0]))
+    check_rails(irregularity, rail_elasticity)
+    if irregularity is not None:
+        track = replace(track, irregularity=irregularity)
     name = unused_name(mbs, name)
     parameters = contact_parameters(
         contact,
@@ -105,7 +112,7 @@ def create_wheelset(
         track,
         parameters,
         speed if moving_frame else 0.0,
-        irregularity,
+        frame,
         rail_elasticity,
         name,
     )

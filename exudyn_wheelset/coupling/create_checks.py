@@ -13,6 +13,7 @@ from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.track.irregularity import Irregularity
 
 # Rail vehicles run up to 160 m/s.
 FASTEST = 200.0
@@ -68,22 +69,14 @@ def check_motion(speed: Any, gravity: Any, switches: Mapping[str, Any]) -> None:
             raise WheelsetError(f"{what} = {value!r}: give True or False")
 
 
-def check_rails(irregularity: Any, rail_elasticity: Any, station: float) -> None:
+def check_rails(irregularity: Any, rail_elasticity: Any) -> None:
     """Raise WheelsetError for rails that do not say how they lie."""
     if not isinstance(rail_elasticity, RailElasticity | None):
         raise WheelsetError(
             f"rail_elasticity = {rail_elasticity!r}: give a RailElasticity(...) or leave it out"
         )
-    if irregularity is None:
-        return
-    if not callable(irregularity):
+    if not isinstance(irregularity, Irregularity | None):
         raise WheelsetError(
-            f"irregularity = {irregularity!r}: give a function of the station [m] that returns "
-            "eight numbers"
-        )
-    motion = np.asarray(irregularity(station), dtype=float)
-    if motion.shape != (8,) or not np.all(np.isfinite(motion)):
-        raise WheelsetError(
-            f"irregularity at {station:g} m gives {motion.tolist()}: give eight finite numbers, "
-            "the shifts y, z of the left and of the right rail [m], then their slopes [-]"
+            f"irregularity = {irregularity!r}: give an Irregularity, from_psd, from_points or "
+            "from_functions"
         )

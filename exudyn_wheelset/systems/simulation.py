@@ -235,7 +235,7 @@ def _motion(
         )
     }
     for items in wheelsets:
-        history = items.contact.history(mbs, reached, coordinates, velocities, first_order)
+        history, _ = items.contact.history(mbs, reached, coordinates, velocities, first_order)
         for hand, side in enumerate(("left", "right")):
             # Q and Y first.
             for k in (-2, -1, *range(len(WHEEL_VALUES) - 2)):

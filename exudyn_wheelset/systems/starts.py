@@ -47,7 +47,7 @@ def shifted_state(system: DynamicSystem, speed: float, shift: float) -> Array:
 def wheel_loads(system: ExudynSystem, items: WheelsetItems, state: Array) -> Array:
     """Vertical forces [N] of the rails on the left and the right wheel at a state."""
     rows = [values[None, :] for values in system.layout.expand(state)]
-    return items.contact.history(system.mbs, np.zeros(1), *rows)[0, :, _LOAD]
+    return items.contact.history(system.mbs, np.zeros(1), *rows)[0][0, :, _LOAD]
 
 
 def steady_wheel_loads(system: ExudynSystem, speed: float) -> dict[tuple[str, str], float]:

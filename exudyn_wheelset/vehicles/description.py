@@ -355,6 +355,10 @@ def _mirrored_wheelset(wheelset: Wheelset) -> Wheelset:
 
 
 def _mirrored_track(track: Track) -> Track:
-    if track.right_rail is None:
-        return track
-    return dataclasses.replace(track, rail=track.right_rail, right_rail=track.rail)
+    return dataclasses.replace(
+        track,
+        rail=track.right_rail or track.rail,
+        right_rail=None if track.right_rail is None else track.rail,
+        layout=None if track.layout is None else track.layout.mirrored(),
+        irregularity=None if track.irregularity is None else track.irregularity.mirrored(),
+    )

@@ -1,0 +1,1 @@
+"""The track: how it lies (layout) and how far it lies off that (irregularity); pure numpy."""
