@@ -11,7 +11,7 @@ import pytest
 
 from exudyn_wheelset import Track, Wheelset, create_wheelset, dtu_truck, wheelsets_of
 from exudyn_wheelset.coupling.addresses import address_of
-from exudyn_wheelset.coupling.wheel_rail import wrench_at
+from exudyn_wheelset.coupling.wheelset_kernel import wrench_at
 
 WHEELSET = Wheelset(mass=1813.0, inertia=(1120.0, 112.0, 1120.0), radius=0.46, wheel="S1002")
 
@@ -25,12 +25,12 @@ def copying_loads(mbs):
                 data = mbs.systemData
                 q, v = np.array(data.GetODE2Coordinates()), np.array(data.GetODE2Coordinates_t())
                 first = int(data.GetNodeLTGODE2(node)[0])
-                table, state = contact.table, contact._state
+                table, state, track = contact.arrays
                 contact.forget()
-                arrays = (q, v, table, state)
-                sizes = (len(q), len(table), len(state))
+                arrays = (q, v, table, state, track)
+                sizes = (len(q), len(table), len(state), len(track))
                 block = np.array([*map(address_of, arrays), *sizes, first, part], dtype=np.int64)
-                return wrench_at(address_of(block))
+                return wrench_at(address_of(block), t)
 
             mbs.SetLoadParameter(load, "loadVectorUserFunction", wrench)
 

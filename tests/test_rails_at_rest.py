@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset import Contact, Track, Wheelset, contact_forces, simulate
+from exudyn_wheelset import Contact, Irregularity, Track, Wheelset, contact_forces, simulate
 from exudyn_wheelset.coupling.create import create_wheelset
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.profiles.shapes import cone, knife_edge
@@ -128,15 +128,17 @@ def simulated_transfer(speed, wave_length, known):
     y, yaw = amplitude * known.imag
     k = 2.0 * math.pi / wave_length
 
-    def shape(station):
-        y, slope = amplitude * math.sin(k * station), amplitude * k * math.cos(k * station)
-        return (y, 0.0, y, 0.0, slope, 0.0, slope, 0.0)
+    def rail(station):
+        return amplitude * np.sin(k * station), 0.0
+
+    # Splines through 100 points a wave follow it to 1e-7 of its height.
+    rough = Irregularity.from_functions(rail, rail, 9.0 * speed + 10.0, wave_length / 100.0)
 
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     spare = 2.0 * LOAD - CONE.mass * 9.81
     items = create_wheelset(
-        mbs, CONE, EDGES, speed=speed, moving_frame=True, contact=LINEAR, irregularity=shape,
+        mbs, CONE, EDGES, speed=speed, moving_frame=True, contact=LINEAR, irregularity=rough,
         lateral_offset=y, yaw=yaw, show=False, sensors=False,
     )  # fmt: skip
     ground = mbs.CreateGround()

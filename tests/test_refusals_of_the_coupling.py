@@ -49,8 +49,7 @@ def mbs():
         ({"contact": Contact(), "friction": 0.4}, r"friction = 0.4 is given beside a contact"),
         ({"friction": -0.1}, r"friction = -0.1: give a number from 0 to 5"),
         ({"rail_elasticity": 2e7}, r"rail_elasticity = 20000000.0: give a RailElasticity"),
-        ({"irregularity": 1e-3}, r"irregularity = 0.001: give a function of the station \[m\]"),
-        ({"irregularity": lambda s: [0.0] * 4}, r"irregularity at 0 m gives .* eight finite"),
+        ({"irregularity": 1e-3}, "irregularity = 0.001: give an Irregularity, from_psd"),
     ],
 )
 def test_create_wheelset_refuses(mbs, options, words):

@@ -60,6 +60,17 @@ def failure_words(error: Exception) -> str:
     return " ".join(lines[:2]) if lines else type(error).__name__
 
 
+def progress_bar(duration: float, shown: bool, description: str) -> tqdm:
+    """Bar with the simulated seconds and the time that is left."""
+    return tqdm(
+        total=round(duration, 9),
+        disable=not shown,
+        desc=description,
+        unit="s",
+        bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
+    )
+
+
 class _Overseer:
     """What is done between the solver's steps."""
 
@@ -107,13 +118,7 @@ def run_solver(
     """
     integration = settings.timeIntegration
     start, end = integration.startTime, integration.endTime
-    bar = tqdm(
-        total=round(end - start, 9),
-        disable=not progress,
-        desc=description,
-        unit="s",
-        bar_format="{desc}: {percentage:3.0f}%|{bar}| {n:.2f}/{total:.2f} s simulated, {remaining}",
-    )
+    bar = progress_bar(end - start, progress, description)
     file = settings.solution.file
     kept = file.write
     file.write = kept and file.name != _SOLUTION_FILE

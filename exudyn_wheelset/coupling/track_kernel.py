@@ -118,7 +118,10 @@ def _slopes(g, u):
 
 @compiled
 def _way(track, a, b):
-    """From a to b: turn of the heading [rad] and way (x, y, z) [m] in level axes along the track."""
+    """From a to b: turn of the heading [rad] and way (x, y, z) [m], in level axes.
+
+    Level axes at a: x along the plan of the track, z up.
+    """
     turned = x = y = z = 0.0
     here = a
     last = int(track[PIECES]) - 1

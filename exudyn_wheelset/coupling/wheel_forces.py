@@ -2,7 +2,9 @@
 
 Q is the vertical force of the rail on the wheel, upwards, Y the lateral one, to the left; sensors,
 motions, statics and elastic rails take both from here. Of several patches on a wheel forces are
-summed; the other values are means weighted with the normal force. Track frame, SI.
+summed, and so are their wear numbers |F_x xi_x| + |F_y xi_y| + |M_z phi|, the energy that creep
+takes a metre of way; the other values are means weighted with the normal force. flange_Q and
+flange_Y are the parts of patches on the flange. Track frame, SI.
 """
 
 from __future__ import annotations
@@ -26,7 +28,13 @@ WHEEL_VALUES = (
     ("patches", "-"),
     ("Q", "N"),
     ("Y", "N"),
+    ("wear_number", "N"),
+    ("flange_Q", "N"),
+    ("flange_Y", "N"),
 )
+# A patch whose plane is steeper than this [rad] is on the flange: treads and their throats run up
+# to some 20 degrees where a wheel is guided by its tread, flanges have 60 to 75.
+FLANGE_ANGLE = 0.5
 
 
 @compiled
@@ -45,7 +53,7 @@ def wheel_force(result, hand):
 
 @compiled
 def wheel_values(result, hand, values):
-    """Fill values (14) of one wheel in the order of WHEEL_VALUES."""
+    """Fill values (17) of one wheel in the order of WHEEL_VALUES."""
     record = result.view(RESULT)[0]
     values[:] = 0.0
     total = 0.0
@@ -64,6 +72,12 @@ def wheel_values(result, hand, values):
         values[8] += weight * patch.angle
         values[9] += weight * patch.radius
         values[10] += weight * patch.penetration
+        values[14] += abs(patch.fx * patch.creep_x) + abs(patch.fy * patch.creep_y)
+        values[14] += abs(patch.mz * patch.spin)
+        if abs(patch.angle) > FLANGE_ANGLE:
+            ny, nz = patch.normal[1], patch.normal[2]
+            values[15] += nz * patch.normal_force - ny * patch.fy
+            values[16] += nz * patch.fy + ny * patch.normal_force
     values[0] = total
     values[11] = record.count[hand]
     values[13], values[12] = wheel_force(result, hand)

@@ -59,7 +59,7 @@ class WheelRailContact:
 
     wheelset, track: descriptions; parameters: array of `contact_parameters`; rail_speed [m/s]:
     speed of the moving frame the model stands in, 0 for a model that runs over the ground; frame:
-    how that frame goes along the track, shared by all wheelsets of a vehicle (None: one of its own);
+    how it goes along the track, shared by all wheelsets of a vehicle (None: one of its own);
     elasticity: springs under each rail, or None for rails that do not give way; name: of the
     wheelset.
     """
@@ -210,7 +210,7 @@ class WheelRailContact:
         self, mbs: Any, times: np.ndarray, coordinates: np.ndarray, velocities: np.ndarray,
         first_order: np.ndarray,
     ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-        """Values (m, 2, 14) of the left and the right wheel at m states, as WHEEL_VALUES says, and
+        """Values (m, 2, 17) of the left and the right wheel at m states, as WHEEL_VALUES says, and
         places (m, 4) of the wheelset: y [m], yaw, roll [rad] on its track, station [m].
 
         times (m,) [s]; coordinates, velocities (m, nq), first_order (m, n1) of the system.

@@ -1,4 +1,4 @@
-"""The rails' wrench on a wheelset of an Exudyn model, compiled: from coordinates to force and torque.
+"""The rails' wrench on a wheelset of an Exudyn model, compiled: coordinates to force and torque.
 
 The wheelset lives in a frame that travels along the track (track_kernel.py), Exudyn's ground. It
 meets the track at its own station: axle, position, velocity and angular velocity, all over the
@@ -189,7 +189,7 @@ def body_wrench(q, v, first, table, state, track, t, part):
 def wheel_history(
     coordinates, velocities, times, first, table, state, track, shifts, values, places
 ):
-    """Fill values (m, 2, 14) of both wheels at m states, and where the wheelset stood (m, 4).
+    """Fill values (m, 2, 17) of both wheels at m states, and where the wheelset stood (m, 4).
 
     values in the order of WHEEL_VALUES; places: y [m], yaw, roll [rad] in the track's own frame
     at the wheelset, station [m]; coordinates, velocities (m, nq) of the system at times (m,) [s];

@@ -1,5 +1,10 @@
 """A simulated motion as data: named columns over time, how it ended, and where it came from.
 
+Of a track with a layout all this is in the frame that travels with the vehicle; "track y", "track
+yaw", "track roll" and "station" of a wheelset are where it stands in the frame of the track at its
+own station, and Y and Q are in that frame as well. What railway engineers read off a motion is in
+its methods; the formulas are in running_safety.py.
+
 Bodies: displacement from the drawn position x, y, z [m], yaw, roll, pitch [rad] and their rates,
 named as the states of the system ("frame: y [m]"). Wheels: forces of the rail on the wheel and
 values of its contact ("wheelset left: Q [N]"): Y lateral towards +y, Q upwards, both in the track
@@ -17,6 +22,7 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results import running_safety as safety
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.files import write_columns
@@ -37,6 +43,7 @@ class Motion:
     record       system, parameters, settings, versions
     coordinates  (m, nq) Exudyn's second-order coordinates, for drawing the model again; (m, 0)
                  for a system that is not Exudyn's
+    start        station [m] of the vehicle's origin at time zero
     """
 
     time: Array
@@ -45,6 +52,7 @@ class Motion:
     speed: float
     record: Mapping[str, Any] = field(default_factory=dict)
     coordinates: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    start: float = 0.0
 
     def __post_init__(self) -> None:
         wrong = {
@@ -91,6 +99,51 @@ class Motion:
             if name.endswith(f" {side}: Q [N]")
         )
 
+    @property
+    def wheelsets(self) -> tuple[str, ...]:
+        """Names of the wheelsets, in the order of the model."""
+        return tuple(dict.fromkeys(name for name, _ in self.wheels))
+
+    @property
+    def distance(self) -> Array:
+        """Station (m,) [m] of the vehicle's origin."""
+        return self.start + self.speed * self.time
+
+    @property
+    def y(self) -> Array:
+        """Lateral shift (m, wheelsets) [m] against the track's centre line at each wheelset."""
+        return self._of_wheelsets("track y [m]")
+
+    @property
+    def yaw(self) -> Array:
+        """Yaw (m, wheelsets) [rad] against the track's direction at each wheelset."""
+        return self._of_wheelsets("track yaw [rad]")
+
+    @property
+    def Q(self) -> Array:
+        """Vertical forces (m, wheelsets, 2) [N] of the rails on left and right wheels, upwards."""
+        return self.of_wheels("Q [N]")
+
+    @property
+    def Y(self) -> Array:
+        """Lateral forces (m, wheelsets, 2) [N] of the rails on the wheels, to the left."""
+        return self.of_wheels("Y [N]")
+
+    @property
+    def patches(self) -> Array:
+        """Number of patches (m, wheelsets, 2) on left and right wheels."""
+        return self.of_wheels("patches [-]")
+
+    def _of_wheelsets(self, column: str) -> Array:
+        found = [self.columns[f"{name}: {column}"] for name in self.wheelsets]
+        return np.column_stack(found) if found else np.zeros((len(self), 0))
+
+    def of_wheels(self, column: str) -> Array:
+        """A column of every wheel, (m, wheelsets, 2): "wear_number [N]", "creep_y [-]", ..."""
+        shape = (len(self), len(self.wheelsets), 2)
+        found = [self.wheel(name, side)[column] for name, side in self.wheels]
+        return np.column_stack(found).reshape(shape) if found else np.zeros(shape)
+
     def body(self, name: str) -> dict[str, Array]:
         """Columns of one body by their own names: "y [m]", "yaw [rad]", "vy [m/s]", ..."""
         return self._of(name, self.bodies)
@@ -110,6 +163,37 @@ class Motion:
             raise AnalysisError(f"the motion has no {name!r}; it has {', '.join(known)}")
         return found
 
+    def guiding_quotient(self) -> Array:
+        """Y/Q (m, wheelsets, 2), Y the wheel's force on the rail towards its field side."""
+        return safety.guiding_quotient(self.Y, self.Q)
+
+    def sum_of_y(self) -> Array:
+        """Sum of both rails' lateral forces (m, wheelsets) [N], to the left."""
+        return self.Y.sum(axis=2)
+
+    def static_loads(self) -> Array:
+        """Wheel loads Q0 (wheelsets, 2) [N] at rest: of the record, else the wheelsets' means."""
+        known = self.record.get("static_loads")
+        if known is not None:
+            return np.array([known[name] for name in self.wheelsets])
+        mean = self.Q.mean(axis=(0, 2))
+        return np.column_stack([mean, mean])
+
+    def unloading(self, static_loads: Array | None = None) -> Array:
+        """(Q0 - Q)/Q0 (m, wheelsets, 2); Q0 (wheelsets, 2) [N] defaults to `static_loads`."""
+        loads = self.static_loads() if static_loads is None else np.asarray(static_loads)
+        return safety.unloading(self.Q, loads)
+
+    def wear_number(self) -> Array:
+        """T-gamma (m, wheelsets, 2) [N]: |F_x xi_x| + |F_y xi_y| + |M_z phi| over all patches."""
+        return self.of_wheels("wear_number [N]")
+
+    def sliding_mean(
+        self, values: Array, length: float = 2.0, step: float = 0.5
+    ) -> tuple[Array, Array]:
+        """Means of values (m, ...) over `length` [m], every `step` [m]: centres [m], means."""
+        return safety.sliding_mean(self.distance, values, length, step)
+
     def after(self, time: float) -> Motion:
         """The part from a time [s] on."""
         rows = self.time >= time
@@ -120,6 +204,7 @@ class Motion:
             self.speed,
             self.record,
             self.coordinates[rows] if len(self.coordinates) else self.coordinates,
+            self.start,
         )
 
     def write_csv(self, path: str | Path) -> Path:
@@ -132,6 +217,7 @@ class Motion:
             **self.record,
             "kind": KIND,
             "speed": self.speed,
+            "start": self.start,
             "outcome": self.outcome.record(),
             "names": list(self.columns),
         }
@@ -145,8 +231,9 @@ class Motion:
         table = arrays["table"]
         columns = {name: table[:, 1 + k] for k, name in enumerate(record.pop("names"))}
         outcome, speed = Outcome.read(record.pop("outcome")), float(record.pop("speed"))
+        start = float(record.pop("start", 0.0))
         record.pop("kind")
-        return cls(table[:, 0], columns, outcome, speed, record, arrays["coordinates"])
+        return cls(table[:, 0], columns, outcome, speed, record, arrays["coordinates"], start)
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame over "t [s]"; raises AnalysisError where pandas is not installed."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.addresses import address_of
+from exudyn_wheelset.coupling.moving_frame import BODY, CENTRE, INERTIA, MASS, MOTION
 from exudyn_wheelset.systems import vehicle_kernel as kernel
 from exudyn_wheelset.systems.exudyn_layout import Layout
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP
@@ -31,13 +32,14 @@ class CompiledVehicle:
         size = len(states.position_of)
         strokes = len(states.names) - states.positions - size
         block = items.connectors.block
-        self._speed = np.zeros(1)
+        self._speed = np.array([0.0, 0.0, vehicle.gravity])
+        track = items.frame.array
         bodies, inverse_masses = _bodies(vehicle, items)
         contacts = np.zeros((len(items.contacts), kernel.CONTACT_ROW), dtype=np.int64)
         blocks = [*(_laws_on(block, body) for body in range(count)), block]
         self._kept: list[Any] = [items, blocks]
         for row, contact in zip(contacts, items.contacts, strict=True):
-            table, state = contact.arrays
+            table, state, _ = contact.arrays
             row[:] = address_of(table), len(table), address_of(state), len(state)
         arrays = [
             np.zeros(size),
@@ -54,9 +56,12 @@ class CompiledVehicle:
             _owners(states, block, count),
             np.array(scales, dtype=float),
             self._speed,
+            track,
+            np.zeros(MOTION),
+            _frame_rows(vehicle, items),
         ]
         self._kept += arrays
-        sizes = [len(states.names), size, strokes, count, len(contacts)]
+        sizes = [len(states.names), size, strokes, count, len(contacts), len(track)]
         self._plan = np.array([*sizes, *map(address_of, arrays)], dtype=np.int64)
         self._address = address_of(self._plan)
         self._state, self._rate = np.zeros(sizes[0]), np.zeros(sizes[0])
@@ -86,10 +91,12 @@ class CompiledVehicle:
         kernel.jacobians_at(self._address, states, DIFFERENCE_STEP, matrices)
         return matrices
 
-    def run(self, state: Array, step: float, samples: Array, steps: int) -> int:
-        """Carry a state (n,) on in place by Runge-Kutta steps [s]; a row of samples (m, n) after
-        each `steps` of them. Returns the number of finite rows."""
-        return int(kernel.run_at(self._address, state, step, samples, steps))
+    def run(self, state: Array, time: float, step: float, samples: Array, steps: int) -> int:
+        """Carry a state (n,) on from a time [s], in place, by Runge-Kutta steps [s]; a row of
+        samples (m, n) after each `steps` of them. Returns the number of finite rows."""
+        finite = int(kernel.run_at(self._address, state, float(time), step, samples, steps))
+        self._speed[1] = 0.0
+        return finite
 
 
 def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
@@ -112,6 +119,18 @@ def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
         row[kernel.PULL] = bar.pull
         row[kernel.DRAWBAR_STIFFNESS], row[kernel.DRAWBAR_DAMPING] = bar.stiffness, bar.damping
     return rows, inverse
+
+
+def _frame_rows(vehicle: Vehicle, items: VehicleItems) -> Array:
+    """Rows (nb, BODY) of the bodies for the loads of their frame's motion."""
+    rows = np.zeros((len(vehicle.parts), BODY))
+    block = items.connectors.block
+    start = int(block[places.H_BODY_ROWS])
+    own = block[start : start + len(rows) * places.BODY].reshape(len(rows), places.BODY)
+    for row, part, centre in zip(rows, vehicle.parts, own[:, places.POSITION], strict=True):
+        body: Any = getattr(part, "wheelset", part)
+        row[MASS], row[INERTIA : INERTIA + 3], row[CENTRE:] = body.mass, body.inertia, centre
+    return rows
 
 
 def _law_rows(block: Array) -> Array:

@@ -1,9 +1,12 @@
 """One way to simulate: a vehicle, an Exudyn model or any system, from a start, into a Motion.
 
-    motion = simulate(coach, speed=60.0, duration=5.0, start=2e-3)
+    motion = simulate(coach, speed=60.0, duration=5.0, initial=2e-3)
     motion["front leading: y"], motion.wheel("front leading", "left")["Q [N]"]
+    motion = simulate(coach.on(Track("UIC60", layout=layout)), 20.0, 30.0, start=0.0)
+    motion.distance, motion.y, motion.Q
 
-Exudyn's own solver runs the model, with RK44 at 0.5 ms unless said otherwise. The run ends before
+A vehicle runs by its compiled equations, everything else by Exudyn's own solver, both with RK44 at
+0.5 ms unless said otherwise. The run ends before
 its time where a wheelset leaves the rails, where the solver gives up and on Ctrl-C; the motion
 keeps what was computed and says how it ended (`motion.outcome`). Wheel forces are computed from the
 recorded states, by the same compiled contact that drove them.
@@ -12,39 +15,51 @@ recorded states, by the same compiled contact that drove them.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import exudyn as exu
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.checking import number, positive, refuse_options
 from exudyn_wheelset.coupling.registration import WheelsetItems, wheelsets_of
+from exudyn_wheelset.coupling.running import progress_bar
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.systems.curving import check_run, frames_of, stand_at
 from exudyn_wheelset.systems.exudyn_layout import Layout, lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.exudyn_wheelsets import rolling_radii
 from exudyn_wheelset.systems.starts import shifted_state
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError, as_system
+from exudyn_wheelset.systems.vehicle_system import VehicleSystem
 
 Start = (
     float | Mapping[str, float] | Sequence[float] | Array | Callable[[DynamicSystem, float], Array]
 )
+
+_NAMES = [name for name, _ in WHEEL_VALUES]
+_FORCES_FIRST = sorted(range(len(_NAMES)), key=lambda k: _NAMES[k] not in ("Q", "Y"))
+# Where a wheelset stands in the frame of the track at its own station.
+PLACES = (("track y", "m"), ("track yaw", "rad"), ("track roll", "rad"), ("station", "m"))
 
 
 def simulate(
     vehicle: Any,
     speed: float,
     duration: float,
-    start: Start | None = None,
-    *,
-    interval: float = 2.0e-3,
     settings: exu.SimulationSettings | None = None,
+    start: float | Start | None = 0.0,
+    *,
+    initial: Start | None = None,
+    interval: float = 2.0e-3,
     solver_type: exu.DynamicSolverType | str | None = None,
     step: float | None = None,
     progress: bool = False,
@@ -54,17 +69,26 @@ def simulate(
     """Motion of a vehicle at `speed` [m/s] over `duration` [s], sampled every `interval` [s].
 
     vehicle  a Vehicle, an ExudynSystem or another DynamicSystem, or Exudyn's `mbs`
-    start    None: steady running, for `mbs` its initial values; a number: steady running, all
-             wheelsets moved to the left by so much [m], both wheels on their rails; a mapping:
-             steady running, the named states moved by so much; (n,): a state of the system; a
-             function of system and speed that returns one
-    settings, solver_type, step  of Exudyn's solver, for vehicles and `mbs`; a system has its own
+    start    station [m] at time zero of the vehicle's own origin, on a track with a layout or an
+             irregularity; on plain straight track, where all stations are alike, it may be what
+             `initial` is
+    initial  None: steady running as the track lies at the start, for `mbs` its initial values; a
+             number: steady running, all wheelsets moved to the left by so much [m], both wheels on
+             their rails; a mapping: steady running, the named states moved by so much; (n,): a
+             state of the system; a function of system and speed that returns one
+    settings, solver_type, step  of Exudyn's solver, for vehicles and `mbs`; a system has its own.
+             Without settings and solver a vehicle runs by its compiled equations
     progress shows a bar with the time left, under `description`
 
     Bodies keep what they do in the model: `mbs` may have joints, memory and wheelsets that run over
     the ground, whose speed is that of their creation. Raises WheelsetError for impossible values.
     """
     refuse_options(simulate, others)
+    if not isinstance(settings, exu.SimulationSettings | None):
+        raise AnalysisError(
+            f"settings = {settings!r}: give exudyn.SimulationSettings(), or load_settings(...); "
+            "what a motion begins from is initial=..., where on the track start=..."
+        )
     speed = number("speed", speed, "m/s", -200.0, 200.0)
     duration = positive("duration", duration, "s", 1e5)
     interval = positive("interval", interval, "s", duration)
@@ -73,25 +97,76 @@ def simulate(
     options = {"settings": settings, "solver_type": solver_type, "step": step}
     given = {name: value for name, value in options.items() if value is not None}
     if isinstance(vehicle, exu.MainSystem):
-        return _simulate_model(vehicle, speed, times, start, given, progress, description)
+        station, initial = _station(wheelsets_of(vehicle), start, initial)
+        return _simulate_model(
+            vehicle, speed, times, station, initial, given, progress, description
+        )
     if isinstance(vehicle, DynamicSystem) and given:
         raise AnalysisError(
             f"{vehicle.name}: {', '.join(given)}: a system has a solver and a step of its own; "
             "give them where it is made"
         )
     system = as_system(vehicle, **given)
-    state = _start_state(system, speed, start)
+    wheelsets = system.wheelsets if isinstance(system, ExudynSystem) else ()
+    station, initial = _station(wheelsets, start, initial)
+    if isinstance(system, ExudynSystem):
+        check_run(wheelsets, speed, station, duration, system.step)
+        stand_at(wheelsets, station, False)
+    state = _start_state(system, speed, initial)
     settings_record = {"duration": duration, "interval": times[1], "speed": speed}
     record = describe(system, "simulation", settings_record)
     if not isinstance(system, ExudynSystem):
         return _simulate_equations(system, speed, times, state, record)
     system.use_speed(speed)
     described = description or f"{system.name}, {speed:g} m/s"
-    outcome, raw = _run(system.runner, system.layout.expand(state), times, progress, described)
+    stand_at(wheelsets, station, True)
+    compiled = isinstance(system, VehicleSystem) and system.compiled_motion
+    try:
+        if isinstance(system, VehicleSystem) and system.compiled_motion:
+            outcome, raw = _run_compiled(system, state, speed, times, progress, described)
+        else:
+            begin = system.layout.expand(state)
+            outcome, raw = _run(system.runner, begin, times, progress, described)
+        motion = motion_of(system, times, raw, outcome, speed, station, record)
+        if compiled:
+            turned = _spun(system.layout, motion.time, motion.coordinates, raw[1])
+            motion = replace(motion, coordinates=turned)
+        return motion
+    finally:
+        stand_at(wheelsets, station, False)
+
+
+def motion_of(
+    system: ExudynSystem,
+    times: Array,
+    raw: tuple[Array, ...],
+    outcome: Outcome,
+    speed: float,
+    station: float,
+    record: Mapping[str, Any],
+) -> Motion:
+    """Motion of a system from coordinates, velocities (m, nq) and first-order ones (m, n1)."""
+    if isinstance(system, VehicleSystem):
+        loads = {name: list(pair) for name, pair in system.vehicle_items.loads.items()}
+        record = {**record, "static_loads": loads}
     return _motion(
         system.mbs, times, raw, system.layout, system.state_names, system.wheelsets, outcome,
-        speed, record,
+        speed, station, record,
     )  # fmt: skip
+
+
+def _station(
+    wheelsets: Sequence[WheelsetItems], start: Any, initial: Start | None
+) -> tuple[float, Start | None]:
+    """Station [m] of a run and what it begins from."""
+    plain = all(frame.is_plain for frame in frames_of(wheelsets))
+    if isinstance(start, Real) and not isinstance(start, bool) and (not plain or start == 0.0):
+        return number("start (station)", start, "m"), initial
+    if start is None:
+        return 0.0, initial
+    if initial is not None:
+        raise AnalysisError(f"start = {start!r} beside initial: give a station [m] as start")
+    return 0.0, start
 
 
 class _Model:
@@ -126,16 +201,17 @@ def _simulate_model(
     mbs: Any,
     speed: float,
     times: Array,
-    start: Start | None,
+    station: float,
+    initial_state: Start | None,
     options: Mapping[str, Any],
     progress: bool,
     description: str | None,
 ) -> Motion:
-    if start is not None:
+    if initial_state is not None:
         system = ExudynSystem(mbs, name=_Model.name, **options)
         motion = simulate(
-            system, speed, times[-1], start, interval=times[1], progress=progress,
-            description=description,
+            system, speed, times[-1], start=station, initial=initial_state, interval=times[1],
+            progress=progress, description=description,
         )  # fmt: skip
         return motion
     model = _Model(mbs, options)
@@ -145,6 +221,7 @@ def _simulate_model(
         np.array(data.GetODE2Coordinates_t(initial)),
         np.array(data.GetODE1Coordinates(initial)),
     )
+    check_run(model.wheelsets, speed, station, float(times[-1]), model.runner.step)
     for items in model.wheelsets:
         first = int(data.GetNodeLTGODE2(items.node)[0])
         _set_speed(items, begin[1], first, speed)
@@ -152,10 +229,15 @@ def _simulate_model(
         model, "simulation", {"duration": times[-1], "interval": times[1], "speed": speed}
     )
     described = description or f"{speed:g} m/s"
-    outcome, raw = _run(model.runner, begin, times, progress, described)
-    return _motion(
-        mbs, times, raw, model.layout, model.layout.names, model.wheelsets, outcome, speed, record
-    )
+    stand_at(model.wheelsets, station, True)
+    try:
+        outcome, raw = _run(model.runner, begin, times, progress, described)
+        return _motion(
+            mbs, times, raw, model.layout, model.layout.names, model.wheelsets, outcome, speed,
+            station, record,
+        )  # fmt: skip
+    finally:
+        stand_at(model.wheelsets, station, False)
 
 
 def _set_speed(items: WheelsetItems, velocities: Array, first: int, speed: float) -> None:
@@ -213,15 +295,47 @@ def _run(
     return outcome, (coordinates, velocities, first_order)
 
 
+def _run_compiled(
+    system: VehicleSystem,
+    state: Array,
+    speed: float,
+    times: Array,
+    progress: bool,
+    description: str,
+) -> tuple[Outcome, tuple[Array, Array, Array]]:
+    """As `_run`, by the compiled equations."""
+    with progress_bar(float(times[-1]), progress, description) as bar:
+        states, outcome = system.carry_on(state, speed, times, bar)
+    rows = [system.layout.expand(row) for row in states]
+    coordinates, velocities, first_order = (
+        np.array([row[k] for row in rows]).reshape(len(rows), -1) for k in range(3)
+    )
+    return outcome, (coordinates, velocities, first_order)
+
+
+def _spun(layout: Layout, times: Array, coordinates: Array, velocities: Array) -> Array:
+    """Coordinates with wheelsets turned by the angle that their spin has come to."""
+    turned = coordinates.copy()
+    for first, _, spins in layout.rotations:
+        if spins and len(times) > 1:
+            place = slice(first, first + 3)
+            rates = velocities[:, first + 1]
+            angle = np.append(0.0, np.cumsum(0.5 * np.diff(times) * (rates[1:] + rates[:-1])))
+            frame = Rotation.from_rotvec(coordinates[:, place])
+            turned[:, place] = (frame * Rotation.from_euler("y", angle)).as_rotvec()
+    return turned
+
+
 def _motion(
     mbs: Any,
     times: Array,
-    raw: tuple[Array, Array, Array],
+    raw: tuple[Array, ...],
     layout: Layout,
     names: Sequence[str],
     wheelsets: Sequence[WheelsetItems],
     outcome: Outcome,
     speed: float,
+    station: float,
     record: Mapping[str, Any],
 ) -> Motion:
     coordinates, velocities, first_order = (np.ascontiguousarray(values) for values in raw)
@@ -235,13 +349,15 @@ def _motion(
         )
     }
     for items in wheelsets:
-        history, _ = items.contact.history(mbs, reached, coordinates, velocities, first_order)
+        history, places = items.contact.history(mbs, reached, coordinates, velocities, first_order)
+        for k, (name, unit) in enumerate(PLACES):
+            columns[f"{items.name}: {name} [{unit}]"] = places[:, k].copy()
         for hand, side in enumerate(("left", "right")):
             # Q and Y first.
-            for k in (-2, -1, *range(len(WHEEL_VALUES) - 2)):
+            for k in _FORCES_FIRST:
                 name, unit = WHEEL_VALUES[k]
                 columns[f"{items.name} {side}: {name} [{unit}]"] = history[:, hand, k].copy()
-    return Motion(reached, columns, outcome, speed, record, coordinates)
+    return Motion(reached, columns, outcome, speed, record, coordinates, station)
 
 
 def _simulate_equations(

@@ -6,7 +6,8 @@ velocity v, the angular velocity w in body axes and the inertia J about the cent
     m v' = F,   J w' = R^T M - w x J w.                                               (1)
 
 F and M are those of the connections (vehicles/kernel.py), of the rails (coupling/wheel_rail.py),
-of the weight, and of what keeps a driven vehicle going: a torque c (V/r0 - w_y) on an axle and a
+of the weight, of the frame's own motion where the track is not straight (coupling/moving_frame.py),
+and of what keeps a driven vehicle going: a torque c (V/r0 - w_y) on an axle and a
 soft drawbar. These are the very functions that Exudyn's loads and objects call, so the rates
 are Exudyn's own to rounding; what is saved is the way there, some 30 us a call.
 
@@ -30,7 +31,10 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.coupling.addresses import integers_at, numbers_at
-from exudyn_wheelset.coupling.wheel_rail import body_wrench
+from exudyn_wheelset.coupling.moving_frame import BODY as FRAME_ROW
+from exudyn_wheelset.coupling.moving_frame import add_body_loads, frame_motion
+from exudyn_wheelset.coupling.track_kernel import CURVED
+from exudyn_wheelset.coupling.wheelset_kernel import body_wrench
 from exudyn_wheelset.systems.reduction import expand_state, rate_of_state
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.kernel import connection_forces
@@ -56,7 +60,10 @@ class Model(NamedTuple):
                              and of those that end on each body
     owners (n)               body whose laws feel each state
     scales (n)
-    speed (1) [m/s]
+    speed (3) [m/s], time [s], gravity [m/s^2]
+    track                    array of the frame that the vehicle stands in
+    motion (9)               of that frame
+    frame_rows (nb, FRAME_ROW)
     """
 
     coordinates: Array
@@ -73,10 +80,13 @@ class Model(NamedTuple):
     owners: Array
     scales: Array
     speed: Array
+    track: Array
+    motion: Array
+    frame_rows: Array
 
 
-# A plan: n, nq, n1, nb, nw, then the addresses of the model's arrays.
-_PLAN_SIZE = 5 + len(Model._fields)
+# A plan: n, nq, n1, nb, nw, length of the track's array, then the addresses of the model's arrays.
+_PLAN_SIZE = 6 + len(Model._fields)
 
 
 @compiled
@@ -95,16 +105,19 @@ def _own_forces(body, model):
     force[5] -= (jy - jx) * wx * wy
     if row[DRIVE] > 0.0:
         force[4] += row[DRIVE] * (model.speed[0] / row[DRIVE_RADIUS] - wy)
+    if model.track[CURVED] != 0.0:
+        add_body_loads(model.motion, model.frame_rows[body], q, v, first, force)
     if body >= model.contacts.shape[0]:
         return
+    time = model.speed[1]
     contact = model.contacts[body]
     table = numbers_at(contact[TABLE], contact[TABLE_SIZE])
     state = numbers_at(contact[CONTACT], contact[CONTACT_SIZE])
-    x, y, z = body_wrench(q, v, first, table, state, 0)
+    x, y, z = body_wrench(q, v, first, table, state, model.track, time, 0)
     force[0] += x
     force[1] += y
     force[2] += z
-    x, y, z = body_wrench(q, v, first, table, state, 1)
+    x, y, z = body_wrench(q, v, first, table, state, model.track, time, 1)
     # R^T m = m - s theta x m + c theta x (theta x m), as in wheel_rail.
     tx, ty, tz = q[first + 3], q[first + 4], q[first + 5]
     square = tx * tx + ty * ty + tz * tz
@@ -159,6 +172,7 @@ def _rates(state, model, rate):
 @compiled
 def _rate(state, model, rate):
     bodies = model.rotations.shape[0]
+    frame_motion(model.track, model.speed[1], model.speed[2], model.motion)
     _expand(state, model)
     _connections(bodies, model)
     for body in range(bodies):
@@ -168,6 +182,7 @@ def _rate(state, model, rate):
 
 @compiled
 def _jacobian(state, model, relative_step, upper, lower, matrix):
+    frame_motion(model.track, model.speed[1], model.speed[2], model.motion)
     for column in range(state.shape[0]):
         body = model.owners[column]
         step = relative_step * model.scales[column]
@@ -191,22 +206,25 @@ def _jacobian(state, model, relative_step, upper, lower, matrix):
 def _model_at(plan):
     """The model of the plan at an address."""
     head = integers_at(plan, _PLAN_SIZE)
-    n, nq, n1, nb, nw = head[0], head[1], head[2], head[3], head[4]
+    n, nq, n1, nb, nw, track = head[0], head[1], head[2], head[3], head[4], head[5]
     return Model(
-        numbers_at(head[5], nq),
         numbers_at(head[6], nq),
-        numbers_at(head[7], n1),
-        numbers_at(head[8], nq + n1),
-        integers_at(head[9], nq),
-        integers_at(head[10], 3 * nb).reshape(nb, 3),
-        numbers_at(head[11], 3 * nb).reshape(nb, 3),
-        numbers_at(head[12], nq),
-        numbers_at(head[13], BODY_ROW * nb).reshape(nb, BODY_ROW),
-        integers_at(head[14], CONTACT_ROW * nw).reshape(nw, CONTACT_ROW),
-        integers_at(head[15], 2 * (nb + 1)).reshape(nb + 1, 2),
-        integers_at(head[16], n),
-        numbers_at(head[17], n),
-        numbers_at(head[18], 1),
+        numbers_at(head[7], nq),
+        numbers_at(head[8], n1),
+        numbers_at(head[9], nq + n1),
+        integers_at(head[10], nq),
+        integers_at(head[11], 3 * nb).reshape(nb, 3),
+        numbers_at(head[12], 3 * nb).reshape(nb, 3),
+        numbers_at(head[13], nq),
+        numbers_at(head[14], BODY_ROW * nb).reshape(nb, BODY_ROW),
+        integers_at(head[15], CONTACT_ROW * nw).reshape(nw, CONTACT_ROW),
+        integers_at(head[16], 2 * (nb + 1)).reshape(nb + 1, 2),
+        integers_at(head[17], n),
+        numbers_at(head[18], n),
+        numbers_at(head[19], 3),
+        numbers_at(head[20], track),
+        numbers_at(head[21], 9),
+        numbers_at(head[22], FRAME_ROW * nb).reshape(nb, FRAME_ROW),
     )
 
 
@@ -235,8 +253,8 @@ def jacobians_at(plan, states, relative_step, matrices):
 
 
 @compiled
-def run_at(plan, state, step, samples, steps):
-    """Carry a state (n,) on by the classical Runge-Kutta method, in place.
+def run_at(plan, state, time, step, samples, steps):
+    """Carry a state (n,) on from a time [s] by the classical Runge-Kutta method, in place.
 
     After each `steps` steps [s] a row of samples (m, n) is filled; returns how many are finite.
     """
@@ -245,8 +263,11 @@ def run_at(plan, state, step, samples, steps):
     one, two, three, four = np.empty(size), np.empty(size), np.empty(size), np.empty(size)
     between = np.empty(size)
     for row in range(samples.shape[0]):
-        for _ in range(steps):
+        for number in range(steps):
+            now = time + step * (row * steps + number)
+            model.speed[1] = now
             _rate(state, model, one)
+            model.speed[1] = now + 0.5 * step
             for k in range(size):
                 between[k] = state[k] + 0.5 * step * one[k]
             _rate(between, model, two)
@@ -255,6 +276,7 @@ def run_at(plan, state, step, samples, steps):
             _rate(between, model, three)
             for k in range(size):
                 between[k] = state[k] + step * three[k]
+            model.speed[1] = now + step
             _rate(between, model, four)
             for k in range(size):
                 state[k] += step / 6.0 * (one[k] + 2.0 * (two[k] + three[k]) + four[k])

@@ -14,6 +14,7 @@ from exudyn_wheelset.coupling.running import CHECK_INTERVAL
 from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.compiled_vehicle import CompiledVehicle
+from exudyn_wheelset.systems.curving import curve_equilibrium
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import Array, SimulationError
@@ -85,14 +86,32 @@ class VehicleSystem(ExudynSystem):
             self.compiled_motion and equal and np.allclose(np.diff(times), times[1] - times[0])
         ):
             return super().simulate(state, speed, times)
-        self._place(speed)
-        assert self.compiled is not None
-        return self._carried_on(self.compiled, np.array(state, dtype=float), speed, times)
+        samples, outcome = self.carry_on(state, speed, times)
+        if outcome.ending is Ending.INTERRUPTED:
+            raise KeyboardInterrupt(str(outcome))
+        if outcome.ending is Ending.FINISHED:
+            return samples
+        done = len(samples)
+        raise SimulationError(
+            f"{self.name}: the motion at {speed:g} m/s ended after {times[done - 1]:.6g} s: "
+            f"{outcome}",
+            times[:done],
+            samples,
+            outcome,
+        )
 
-    def _carried_on(
-        self, compiled: CompiledVehicle, state: Array, speed: float, times: Array
-    ) -> Array:
-        """Motion of the compiled equations, looked at as often as that of Exudyn's solver."""
+    def carry_on(
+        self, state: Array, speed: float, times: Array, bar: Any = None
+    ) -> tuple[Array, Outcome]:
+        """Samples (m, n) of the compiled equations' motion from a state (n,), and how it ended.
+
+        times: at equal distances; what was computed before an early end is kept. The wheelsets are
+        looked at as often as in a run of Exudyn's solver; bar: told of the simulated seconds.
+        """
+        compiled = self.compiled
+        assert compiled is not None
+        self._place(speed)
+        state = np.array(state, dtype=float)
         interval = float(times[-1] - times[0]) / (len(times) - 1)
         steps = max(1, int(np.ceil(interval / self.step - 1e-9)))
         together = max(1, int(CHECK_INTERVAL / interval))
@@ -101,23 +120,29 @@ class VehicleSystem(ExudynSystem):
         watch = DerailmentWatch(self.contacts)
         watch.begin(float(times[0]))
         done, outcome = 1, None
-        while outcome is None and done < len(times):
-            rows = samples[done : done + together]
-            finite = compiled.run(state, interval / steps, rows, steps)
-            done += finite
-            if finite < len(rows):
-                outcome = Outcome(Ending.NOT_FINITE)
-            else:
-                outcome = watch.look(float(times[done - 1]))
-        if outcome is None:
-            return samples
-        raise SimulationError(
-            f"{self.name}: the motion at {speed:g} m/s ended after {times[done - 1]:.6g} s: "
-            f"{outcome}",
-            times[:done],
-            samples[:done],
-            outcome,
-        )
+        try:
+            while outcome is None and done < len(times):
+                rows = samples[done : done + together]
+                time = float(times[0]) + (done - 1) * interval
+                finite = compiled.run(state, time, interval / steps, rows, steps)
+                done += finite
+                if bar is not None:
+                    bar.update(finite * interval)
+                if finite < len(rows):
+                    outcome = Outcome(Ending.NOT_FINITE)
+                else:
+                    outcome = watch.look(float(times[done - 1]))
+        except KeyboardInterrupt:
+            outcome = Outcome(Ending.INTERRUPTED, f"at {times[done - 1]:.3f} s")
+        return samples[:done], outcome or Outcome(Ending.FINISHED)
+
+    def equilibrium(self, speed: float, guess: Array | None = None) -> Array:
+        """Steady state (n,) at a speed [m/s]; in a curve by continuation from straight track."""
+        frame = self.vehicle_items.frame
+        if guess is not None or not np.any(frame.frozen):
+            return super().equilibrium(speed, guess)
+        self.use_speed(speed)
+        return curve_equilibrium(self, frame, speed)
 
     def _place(self, speed: float) -> None:
         self.use_speed(speed)

@@ -241,11 +241,11 @@ class Layout:
                 rows[which] += list(scaled)
                 breaks[which] += list(station + element.length * t[1:])
             station += element.length
-        turn, roll, wide = (
+        turns, rolls, widths = (
             Pieces(np.array(b), np.array(r)) for b, r in zip(breaks, rows, strict=True)
         )
-        grade = polyline(np.array(self.gradient or ((0.0, 0.0),)))
-        return turn, rounded(roll, self.rounding), rounded(grade, self.rounding), wide
+        grades = polyline(np.array(self.gradient or ((0.0, 0.0),)))
+        return turns, rounded(rolls, self.rounding), rounded(grades, self.rounding), widths
 
     def curvature(self, station: Array | float) -> Array:
         """Curvature [1/m] of the plan at stations, positive to the left."""

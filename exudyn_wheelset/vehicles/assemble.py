@@ -9,7 +9,7 @@ vehicles of this package: Exudyn's ground is what moves along.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
@@ -28,17 +28,19 @@ from exudyn.utilities import (
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.coupling.create import create_wheelset
+from exudyn_wheelset.coupling.moving_frame import add_frame_loads
 from exudyn_wheelset.coupling.registration import (
     FirstOrderState,
     WheelsetItems,
     name_states,
 )
+from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements.protocol import End
 from exudyn_wheelset.vehicles.links import add_links
-from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part
+from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part, rolls_freely
 from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.struts import block_of, strokes_at
@@ -138,7 +140,7 @@ class BodyItems:
 
 @dataclass(frozen=True)
 class Drawbar:
-    """What keeps a driven or braked vehicle at its speed.
+    """What keeps a vehicle at its speed that is driven, braked or on a track that is not plain.
 
     part: number of the pulled part; pull [N]; stiffness [N/m] and damping [N s/m] along the track.
     """
@@ -157,7 +159,7 @@ class VehicleItems:
     connector: object with all other connections (None without any), connectors: what is behind
     it; states: object of first-order coordinates, or None; name: of the vehicle in this system;
     radii: rolling radius V/spin [m] of each wheelset, by node; drawbar: None where nothing has to
-    be pulled.
+    be pulled; frame: that all parts stand in; loads [N] of the left and the right wheel at rest.
     """
 
     name: str
@@ -169,6 +171,8 @@ class VehicleItems:
     states: int | None
     radii: Mapping[int, float]
     drawbar: Drawbar | None = None
+    frame: TrackFrame = field(default_factory=TrackFrame)
+    loads: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -202,6 +206,10 @@ def add_vehicle(
     """
     number("speed", speed, "m/s")
     rest = find_rest(vehicle)
+    track = vehicle.track
+    if options.get("irregularity") is not None:
+        track = replace(track, irregularity=options.pop("irregularity"))
+    travelling = TrackFrame(track.layout, track.irregularity)
     shift = np.array([position[0], position[1], 0.0])
     name = _unused_name(mbs, vehicle)
     prefix = "" if name == vehicle.name else f"{name} "
@@ -217,7 +225,7 @@ def add_vehicle(
         items = create_wheelset(
             mbs,
             axle.wheelset,
-            vehicle.track,
+            track,
             position=(float(centre[0]), float(centre[1])),
             height=float(centre[2]) - axle.wheelset.radius,
             speed=speed,
@@ -227,6 +235,7 @@ def add_vehicle(
             sensors=sensors,
             show=show,
             name=prefix + axle.name,
+            frame=travelling,
             **options,
         )
         _put_at_rest(mbs, items.node, rest.pose[k], speed / at_rest.radius)
@@ -246,12 +255,16 @@ def add_vehicle(
         )
         bodies[body.name] = BodyItems(int(created["nodeNumber"]), int(created["bodyNumber"]))
         _put_at_rest(mbs, bodies[body.name].node, rest.pose[k], None)
-    drawbar = _pull(mbs, rest, vehicle, [*wheelsets.values(), *bodies.values()], name)
     parts: list[Any] = [*wheelsets.values(), *bodies.values()]
     nodes = [items.node for items in parts]
     if show:
         names = [part.name for part in vehicle.parts]
         add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)))
+    drawbar = _pull(mbs, rest, vehicle, travelling, parts, name)
+    if travelling.is_curved:
+        solids: list[Any] = [getattr(part, "wheelset", part) for part in vehicle.parts]
+        masses = [(node, one.mass, one.inertia) for node, one in zip(nodes, solids, strict=True)]
+        add_frame_loads(mbs, travelling, masses, vehicle.gravity, f"{name} in its frame")
     connections = _own_items(mbs, rest, [*parts, ground], shift, len(wheelsets))
     centres = rest.centres + shift
     moved = Rest(rest.struts, rest.preloads, centres, rest.pose, rest.drawn, rest.axles)
@@ -267,6 +280,13 @@ def add_vehicle(
         states,
         frozen(radii),
         drawbar,
+        travelling,
+        frozen(
+            {
+                axle.name: tuple(at.loads)
+                for axle, at in zip(vehicle.wheelsets, rest.axles, strict=True)
+            }
+        ),
     )
 
 
@@ -322,12 +342,15 @@ def _compiled_items(
     return connectors, int(connector), int(number_of_object)
 
 
-def _pull(mbs: Any, rest: Rest, vehicle: Vehicle, parts: list[Any], name: str) -> Drawbar | None:
-    """Let a vehicle whose wheels drive or brake keep its speed.
+def _pull(
+    mbs: Any, rest: Rest, vehicle: Vehicle, frame: TrackFrame, parts: list[Any], name: str
+) -> Drawbar | None:
+    """Let a vehicle keep its speed whose wheels drive or brake, or whose track is not plain.
 
-    Beside the pull a soft drawbar to what moves along: the pull at another speed differs a little.
+    Beside the pull a soft drawbar to what moves along: the pull at another speed differs a little,
+    and curves, gradients and rough rails resist.
     """
-    if rest.pull == 0.0:
+    if rest.pull == 0.0 and (frame.is_plain or not rolls_freely(rest.struts, len(rest.centres))):
         return None
     part = heaviest_part(vehicle)
     bar = Drawbar(part, rest.pull, vehicle.mass * _DRAWBAR**2, 2.0 * vehicle.mass * _DRAWBAR)

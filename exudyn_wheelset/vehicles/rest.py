@@ -114,7 +114,7 @@ def _add_rails(vehicle: Vehicle, forces: Array, axles: list[AxleRest]) -> None:
             forces[k, 4] = 0.0
 
 
-def _rolls_freely(struts: list[Strut], parts: int) -> bool:
+def rolls_freely(struts: list[Strut], parts: int) -> bool:
     """Whether no connection to the ground holds the vehicle along the track."""
     return not any(strut.upper == parts and strut.stiffness[0, 0] > 0.0 for strut in struts)
 
@@ -180,10 +180,10 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
     inertias = inertias_of(vehicle)
     spins = len(vehicle.wheelsets)
     pulled, weight = heaviest_part(vehicle), float(inertias[:, 0].sum()) * max(vehicle.gravity, 1.0)
-    free = _rolls_freely(rest.struts, len(centres))
     rails = [
         RailWrench(axle.wheelset, vehicle.track, vehicle.contact) for axle in vehicle.wheelsets
     ]
+    free = rolls_freely(rest.struts, len(centres))
 
     def split(unknown: Array) -> tuple[Array, list[AxleRest]]:
         """Pose and wheelsets; a wheelset's pitch stands for the change of its rolling radius."""
