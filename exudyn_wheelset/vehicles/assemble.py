@@ -283,7 +283,7 @@ def add_vehicle(
         travelling,
         frozen(
             {
-                axle.name: tuple(at.loads)
+                axle.name: at.wheel_loads
                 for axle, at in zip(vehicle.wheelsets, rest.axles, strict=True)
             }
         ),
