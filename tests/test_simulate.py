@@ -78,7 +78,7 @@ def test_the_same_motion_as_the_analyses_see(truck):
     state = truck.equilibrium(40.0)
     state[truck.lateral_indices[0]] += 1e-3
     times = np.linspace(0.0, 0.3, 151)
-    known = ExudynSystem.simulate(truck, state, 40.0, times)
+    known = truck.simulate(state, 40.0, times)
     for start in (state, lambda system, speed: state, {"truck leading wheelset: y": 1e-3}):
         motion = simulate(truck, 40.0, 0.3, start=start)
         found = np.column_stack([motion[name] for name in truck.state_names])

@@ -322,7 +322,9 @@ def _spun(layout: Layout, times: Array, coordinates: Array, velocities: Array) -
             rates = velocities[:, first + 1]
             angle = np.append(0.0, np.cumsum(0.5 * np.diff(times) * (rates[1:] + rates[:-1])))
             frame = Rotation.from_rotvec(coordinates[:, place])
-            turned[:, place] = (frame * Rotation.from_euler("y", angle)).as_rotvec()
+            turned[:, place] = (
+                frame * Rotation.from_rotvec(np.outer(angle, [0.0, 1.0, 0.0]))
+            ).as_rotvec()
     return turned
 
 
