@@ -112,7 +112,8 @@ def transfer_by_newton_and_euler(speed, wave_length):
         couple = (iy * spin * s * psi - ix * s * s * phi) * LAMBDA / HALF
         spring = 2.0 * (STIFFNESS[1] + DAMPING[1] * s)
         yaw_spring = 2.0 * LENGTH**2 * (STIFFNESS[0] + DAMPING[0] * s)
-        lateral = -mass * s * s * y - spring * y + more * creep - 2 * normal * phi
+        lateral = -mass * s * s * y - spring * y + more * creep
+        lateral -= 2 * normal * (phi + LAMBDA * u / HALF)
         radius = LAMBDA * (u + r0 * phi) / r0
         about = -(iz * s * s + yaw_spring) * psi - iy * spin * s * phi
         about += -2 * HALF * f11 * (HALF * s * psi / speed + radius) + 2 * f23 * xi_y

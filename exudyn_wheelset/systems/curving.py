@@ -3,29 +3,39 @@
 In a circular curve at constant speed everything that a vehicle feels in the frame that travels with
 it is constant (coupling/moving_frame.py), so the steady curve is an equilibrium. Newton's method
 finds it from straight track by continuation: curvature, cant, gradient and widening grow together,
-each step begins from the line through the last two states, and a step that fails is halved.
+each step begins from the line through the last two states, measured from the track at every body,
+and a step that fails is halved. Where Newton's method ends (a wheel that goes over from tread to
+flange), the vehicle runs in the curve until it is steady, and Newton's method goes on from there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.track_frame import TrackFrame
+from exudyn_wheelset.coupling.track_kernel import frame_beside, relative_pose
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.system import newton_equilibrium
 
 if TYPE_CHECKING:
     from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+    from exudyn_wheelset.systems.vehicle_system import VehicleSystem
 
 # Shares of the curve: of the first step and of the least one.
 _FIRST_SHARE, _LEAST_SHARE = 0.2, 1.0e-3
 # Newton's steps of a share of the curve: more of them mean that it was too large a share.
 _NEWTON_STEPS = 25
+# Where Newton's method ends: share of the curve that is gone on by, and seconds to settle.
+_SETTLED_SHARE, _SETTLING_RUNS = 0.02, 15
+# Way [m] for the rate at which the track changes beside a frame.
+_DIFFERENCE = 1.0e-3
 
 
 def frames_of(wheelsets: Iterable[WheelsetItems]) -> list[TrackFrame]:
@@ -49,48 +59,144 @@ def stand_at(wheelsets: Iterable[WheelsetItems], start: float, live: bool) -> No
     forget(wheelsets)
 
 
-def curve_equilibrium(system: ExudynSystem, frame: TrackFrame, speed: float) -> Array:
+def moved_with_track(
+    system: Any, frame: TrackFrame, state: Array, before: Array, after: Array | None
+) -> Array:
+    """The state (n,) whose bodies stand to the track `after` as they stood to `before`.
+
+    Both are what `TrackFrame.freeze` takes; None: the track as it really lies from the frame's
+    start on, with the velocities at which it changes beside the frame. The frame is left so.
+    """
+    coordinates, velocities, first_order = system.layout.expand(state)
+    centres = system.centres
+    frame.freeze(*before)
+    places = [_track_beside(frame, centre[0]) for centre in centres]
+    if after is None:
+        frame.set_live(True)
+    else:
+        frame.freeze(*after)
+    for k, (centre, (old, old_origin, _, _)) in enumerate(zip(centres, places, strict=True)):
+        new, new_origin, moving, spinning = _track_beside(frame, centre[0])
+        turn = new @ old.T
+        first = int(system.layout.rotations[k, 0]) - 3
+        at, way = slice(first, first + 3), slice(first + 3, first + 6)
+        offset = turn @ (centre + coordinates[at] - old_origin)
+        coordinates[at] = new_origin + offset - centre
+        velocities[at] = turn @ velocities[at] + moving + np.cross(spinning, offset)
+        rotation = Rotation.from_matrix(turn) * Rotation.from_rotvec(coordinates[way])
+        coordinates[way] = rotation.as_rotvec()
+        velocities[way] += rotation.inv().apply(spinning)
+    forget(system.wheelsets)
+    return system.layout.reduce(coordinates[None], velocities[None], first_order[None])[0]
+
+
+def _track_beside(frame: TrackFrame, x: float) -> tuple[Array, Array, Array, Array]:
+    """Axes (3, 3), origin, velocity and angular velocity of the track's frame x [m] ahead."""
+    poses = []
+    pose = np.zeros(12)
+    station = frame_beside(frame.array, frame.start, x, 0.0, 0.0, pose)
+    for ahead in (0.0, _DIFFERENCE, -_DIFFERENCE):
+        relative_pose(frame.array, frame.start + ahead, station + ahead, pose)
+        poses.append((pose[:9].reshape(3, 3).copy(), pose[9:].copy()))
+    (axes, origin), (later, there), (earlier, here) = poses
+    per_second = 0.5 * frame.speed / _DIFFERENCE
+    turning = per_second * (later - earlier) @ axes.T
+    spin = np.array([turning[2, 1], turning[0, 2], turning[1, 0]])
+    return axes, origin, per_second * (there - here), spin
+
+
+def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) -> Array:
     """Steady state (n,) at a speed [m/s] on the track as the frame holds it, not live.
 
     Raises AnalysisError with how much of the curve was reached.
     """
     target = frame.frozen
-
-    def lie(share: float) -> None:
-        frame.freeze(*(share * target))
-        forget(system.wheelsets)
-
+    straight = 0.0 * target
     try:
-        lie(0.0)
+        frame.freeze(*straight)
+        forget(system.wheelsets)
+        # Measured from the track, as if it were straight.
         states = [newton_equilibrium(system, speed, system.initial_state(speed))]
         shares = [0.0]
         step = _FIRST_SHARE
-        reason = ""
         while shares[-1] < 1.0 and np.any(target):
             share = min(1.0, shares[-1] + step)
             guess = states[-1].copy()
             if len(states) > 1:
                 ahead = (share - shares[-1]) / (shares[-1] - shares[-2])
                 guess += ahead * (states[-1] - states[-2])
-            lie(share)
+            here = share * target
+            guess = moved_with_track(system, frame, guess, straight, here)
             try:
                 state = newton_equilibrium(system, speed, guess, steps=_NEWTON_STEPS)
             except AnalysisError as error:
-                reason = str(error)
-                step *= 0.5
-                if step < _LEAST_SHARE:
+                if step > _LEAST_SHARE:
+                    step *= 0.5
+                    continue
+                share = min(1.0, shares[-1] + _SETTLED_SHARE)
+                here = share * target
+                guess = moved_with_track(system, frame, states[-1], straight, here)
+                settled = _settled(system, guess, speed)
+                if settled is None:
                     radius = 1.0 / (shares[-1] * target[0]) if target[0] else np.inf
                     raise AnalysisError(
                         f"{system.name}: no steady running at {speed:g} m/s beyond "
-                        f"{shares[-1]:.3f} of the curve (radius {radius:.4g} m): {reason}"
+                        f"{shares[-1]:.3f} of the curve (radius {radius:.4g} m): {error}"
                     ) from error
-                continue
-            states.append(state)
+                state = settled
+                states, shares = states[:0], shares[:0]
+            states.append(moved_with_track(system, frame, state, here, straight))
+            before = shares[-1] if shares else share
             shares.append(share)
-            step = min(1.6 * (share - shares[-2]), 0.5)
-        return states[-1]
+            step = min(1.6 * (share - before), 0.5) or _SETTLED_SHARE
+        return moved_with_track(system, frame, states[-1], straight, target)
     finally:
-        lie(1.0)
+        frame.freeze(*target)
+        forget(system.wheelsets)
+
+
+def _settled(system: VehicleSystem, state: Array, speed: float) -> Array | None:
+    """Steady state that a motion from a state comes to, or None."""
+    if system.compiled is None:
+        return None
+    for _ in range(_SETTLING_RUNS):
+        samples, outcome = system.carry_on(state, speed, np.linspace(0.0, 1.0, 21))
+        if outcome.ending is not Ending.FINISHED:
+            return None
+        state = samples[-1]
+        try:
+            return newton_equilibrium(system, speed, state, steps=_NEWTON_STEPS)
+        except AnalysisError:
+            continue
+    return None
+
+
+def follow_rails(system: ExudynSystem, state: Array, speed: float, start: float) -> Array:
+    """The state (n,) with every body moved along with the track where it is crooked.
+
+    A wheelset stands as much off and moves as fast as the rails under it: on contact without
+    damping, one that is dropped onto them would hop on for seconds. start: station [m].
+    """
+    frame = getattr(getattr(system, "vehicle_items", None), "frame", None)
+    if frame is not None and frame.is_curved:
+        state = moved_with_track(system, frame, state, frame.frozen, None)
+    state = state.copy()
+    for items, places in zip(system.wheelsets, system.pose_indices, strict=True):
+        irregularity = items.contact.track_frame.irregularity
+        if irregularity is None or min(places) < 0:
+            continue
+        shifts, slopes = irregularity.shape(start + items.reference[0])
+        first = int(system.mbs.systemData.GetNodeLTGODE2(items.node)[0])
+        width = 2.0 * items.contact.wheelset.tape_half_distance
+        for values, where in (
+            (shifts, places),
+            (speed * slopes, [system.layout.positions + first + k for k in (1, 2, 3)]),
+        ):
+            left_y, left_z, right_y, right_z = values
+            state[where[0]] += 0.5 * (left_y + right_y)
+            state[where[1]] += 0.5 * (left_z + right_z)
+            state[where[2]] += (left_z - right_z) / width
+    return state
 
 
 def check_run(

@@ -32,7 +32,7 @@ from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
-from exudyn_wheelset.systems.curving import check_run, frames_of, stand_at
+from exudyn_wheelset.systems.curving import check_run, follow_rails, frames_of, stand_at
 from exudyn_wheelset.systems.exudyn_layout import Layout, lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
@@ -113,6 +113,8 @@ def simulate(
         check_run(wheelsets, speed, station, duration, system.step)
         stand_at(wheelsets, station, False)
     state = _start_state(system, speed, initial)
+    if isinstance(system, ExudynSystem) and not isinstance(initial, np.ndarray):
+        state = follow_rails(system, state, speed, station)
     settings_record = {"duration": duration, "interval": times[1], "speed": speed}
     record = describe(system, "simulation", settings_record)
     if not isinstance(system, ExudynSystem):

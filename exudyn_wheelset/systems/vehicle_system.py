@@ -18,6 +18,7 @@ from exudyn_wheelset.systems.curving import curve_equilibrium
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import Array, SimulationError
+from exudyn_wheelset.vehicles import layout as places
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.spin_drive import DRIVEN_STEP
@@ -47,6 +48,14 @@ class VehicleSystem(ExudynSystem):
         self.vehicle_items = items
         if not items.connections:
             self.compiled = CompiledVehicle(vehicle, items, self.layout, self.scales)
+
+    @property
+    def centres(self) -> Array:
+        """Reference positions (nb, 3) [m] of the wheelsets and bodies."""
+        block = self.vehicle_items.connectors.block
+        start, count = int(block[places.H_BODY_ROWS]), len(self.layout.rotations)
+        rows = block[start : start + count * places.BODY].reshape(count, places.BODY)
+        return np.asarray(rows[:, places.POSITION])
 
     def derivative(self, state: Array, speed: float) -> Array:
         """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,)."""

@@ -66,7 +66,7 @@ def compare_growth(
         if amplitude is not None:
             start = mode_start(system, linear, row, amplitude)
         motion = simulate(
-            system, float(speed), duration, start, interval=interval, progress=progress
+            system, float(speed), duration, initial=start, interval=interval, progress=progress
         )
         size = abs(offset or amplitude or 0.0)
         rows.append(_numbers(system, linear, complex(linear.eigenvalues[row]), motion, size))
