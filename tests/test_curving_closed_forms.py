@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset import (
     AnalysisError,
@@ -31,6 +32,8 @@ from exudyn_wheelset import (
 )
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.profiles.shapes import cone, knife_edge
+from exudyn_wheelset.vehicles.layout import ROD
+from exudyn_wheelset.vehicles.rest import find_rest
 
 GRAVITY = 9.81
 LAMBDA, HALF, RADIUS = 0.05, 0.75, 0.46
@@ -49,7 +52,7 @@ def wagon(track, contact, mass=20e3, height=1.8, stiffness=1.0e9, **axle):
     for name, x in (("leading", 2.5), ("trailing", -2.5)):
         own = made.wheelset(name, wheelset, x=x)
         for side, y in (("left", 1.0), ("right", -1.0)):
-            spring = Spring((2e6, 2e6, stiffness), (1e4, 1e4, 1e5))
+            spring = Spring((stiffness, stiffness, stiffness), (1e4, 1e4, 1e5))
             made.connect(spring, own, body, at=(x, y, own.z), name=f"{name} {side} spring")
     return made.finish()
 
@@ -60,13 +63,18 @@ def test_at_the_equilibrium_cant_both_rails_carry_alike():
     speed = math.sqrt(radius * GRAVITY * math.tan(math.asin(cant / 1.5)))
     # On knife edges: on a rail's head the contacts move along with the wheelset's own shift.
     curve = steady_curve(wagon(EDGES, LINEAR, stiffness=1e8), radius, cant, speed)
+    # Their gyroscopic couple shifts 2 I V^2/(r0 R) over the distance of the rails.
+    couple = 2.0 * CONE.inertia[1] * speed**2 / (RADIUS * radius)
     left, right = curve.Q.sum(axis=0)
-    assert left == pytest.approx(right, rel=1e-3)
+    assert left + couple / HALF == pytest.approx(right, rel=1e-3)
 
 
 @pytest.mark.parametrize(("speed", "cant"), [(50.0, 0.0), (50.0, 0.05), (10.0, 0.05)])
 def test_a_stiff_vehicle_shifts_its_load_by_the_couple_of_inertia_and_weight(speed, cant):
-    """dQ/Q0 = 2 h (V^2/(R g) - u/e)/e, and 2 y/e for a centre of gravity beside the track's."""
+    """dQ/Q0 = 2 h (V^2/(R g) - u/e)/e, and 2 y/e for a centre of gravity beside the track's.
+
+    The wheels' gyroscopic couple comes to it, 1 % here.
+    """
     radius, base = 4000.0, 2.0 * HALF
     vehicle = wagon(EDGES, LINEAR, stiffness=1e8)
     curve = steady_curve(vehicle, radius, cant, speed)
@@ -77,6 +85,9 @@ def test_a_stiff_vehicle_shifts_its_load_by_the_couple_of_inertia_and_weight(spe
     uncompensated = speed**2 / (radius * GRAVITY) - cant / base
     # Outwards is to the right.
     expected = 2.0 * (height * uncompensated - aside) / base
+    # The wheels' spin is carried round the curve: I V^2/(r0 R) of either axle.
+    couple = 2.0 * CONE.inertia[1] * speed**2 / (RADIUS * radius)
+    expected += 2.0 * couple / (base * masses.sum() * GRAVITY)
     left, right = curve.Q.sum(axis=0)
     assert (right - left) / (right + left) == pytest.approx(expected, rel=5e-3)
 
@@ -95,12 +106,15 @@ def test_forces_and_moments_balance():
     data.SetODE2Coordinates(coordinates)
     data.SetODE2Coordinates_t(velocities)
     force, moment, weight = np.zeros(3), np.zeros(3), COACH.mass * GRAVITY
+    centres, turns = [], []
     solids = [getattr(part, "wheelset", part) for part in COACH.parts]
     for k, (solid, centre) in enumerate(zip(solids, system.centres, strict=True)):
         place = centre + coordinates[6 * k : 6 * k + 3]
         own = -solid.mass * GRAVITY * up
         from_axis = place - radius * inwards
         own -= solid.mass * np.cross(turning, np.cross(turning, from_axis))
+        centres.append(place)
+        turns.append(Rotation.from_rotvec(coordinates[6 * k + 3 : 6 * k + 6]))
         force += own
         moment += np.cross(place, own)
         if k < len(system.wheelsets):
@@ -116,6 +130,16 @@ def test_forces_and_moments_balance():
     pull = bar.pull - bar.stiffness * coordinates[6 * bar.part]
     force[0] += pull
     moment += np.cross(place, [pull, 0.0, 0.0])
+    # Preloads keep their direction in the track and act each at its own end: sheared springs put a
+    # couple on the vehicle (docs/decisions/connections-in-one-compiled-call.md).
+    for strut, preload in zip(find_rest(COACH).struts, find_rest(COACH).preloads, strict=True):
+        if strut.law.middle or strut.law.kind == ROD:
+            continue
+        ends = [
+            centres[body] + turns[body].apply(point - system.centres[body])
+            for body, point in zip((strut.lower, strut.upper), strut.points, strict=True)
+        ]
+        moment += np.cross(ends[1] - ends[0], preload[:3])
     assert np.abs(force).max() < 1e-6 * weight
     # Products of inertia of slightly turned bodies are 1e-5 of the moment of the weight.
     assert np.abs(moment).max() < 1e-5 * weight
@@ -164,7 +188,8 @@ def truck_by_hand(radius, base, lateral, yaw_stiffness, load):
 
     Half wheelbase `base`: the track at +-base lies base^2/(2 R) aside of the frame's tangent and is
     turned by +-base/R. The normal forces push back by 2 N phi as their planes roll, and by
-    2 N lambda y/b as the wheelset's weight stands beside the track's middle. Frame free but for the springs; unknowns y1, y2, psi1, psi2, y_f, psi_f.
+    2 N lambda y/b as the wheelset's weight stands beside the track's middle. Frame free but for the
+    springs; unknowns y1, y2, psi1, psi2, y_f, psi_f.
     """
     f11, f22, f23 = coefficients(load)
     roll = LAMBDA / (HALF - LAMBDA * RADIUS)
