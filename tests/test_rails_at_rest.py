@@ -107,7 +107,10 @@ def transfer_by_newton_and_euler(speed, wave_length):
         u = y - eps
         phi = roll * u
         xi_y = (s * y + r0 * s * phi) / speed - psi
-        creep = -2.0 * f22 * xi_y - 2.0 * f23 * (s * psi / speed - phi / r0)
+        # Between a cone and its own axle the angle stays: of spin only the yawing's is left, and
+        # +-lambda/r0 under unlike loads, N_l - N_r = (2 N u - r0 F)/b, for f23 goes with N.
+        creep = -2.0 * f22 * xi_y - 2.0 * f23 * (s * psi / speed - LAMBDA / r0 * u / HALF)
+        creep /= 1.0 + f23 * LAMBDA / (normal * HALF)
         # The couple of the normal forces that holds the roll, in the sloping planes.
         couple = (iy * spin * s * psi - ix * s * s * phi) * LAMBDA / HALF
         spring = 2.0 * (STIFFNESS[1] + DAMPING[1] * s)
