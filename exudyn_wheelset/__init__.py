@@ -73,6 +73,7 @@ _PLACES = {
     "design": "stability.design",
     "dtu_truck": "catalogue.truck",
     "equivalent_conicity": "geometry.conicity",
+    "film": "front.film",
     "hopf_points": "stability.linear.crossings",
     "limit_cycles": "stability.hunting.limit_cycles",
     "linear_critical_speed": "stability.linear.critical_speed",

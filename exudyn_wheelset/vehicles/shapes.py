@@ -251,7 +251,10 @@ def _freight(
         items.append(
             pencil.brick((end, -0.15, floor - 0.2), (end + 0.5 * sign, 0.15, floor), _CAST)
         )
-    if loaded:
+    if not loaded:
+        inside = (rear + 0.15, -half + 0.15, top - 0.1), (front - 0.15, half - 0.15, top + 0.004)
+        items.append(pencil.brick(*inside, _LOAD))
+    else:
         length = 0.5 * (front - rear) - 0.25
         heap = [
             (-length, top),
