@@ -35,6 +35,8 @@ import math
 
 from exudyn_wheelset.compilation import compiled
 
+# Friction on the faces of a wedge beyond which its column force changes no more.
+STEEPEST = 1.5
 # Kinds of pressure.
 CONSTANT, PRESSED, HUNG, DISC, WEDGE = 0, 1, 2, 3, 4
 # Places in the data of a law.
@@ -119,9 +121,11 @@ def column_force(spring_force, hold, tangent, friction, slope_friction):
 
     and, with h = -1 in unloading, S/(tan(a - phi) + mu): the two limits of the patent US 6269752
     (D. V. Taylor). Relaxed it is S/tan(a). Where the slope alone holds the wedge (a + phi of 90
-    degrees and more) nothing is left for the column.
+    degrees and more) nothing is left for the column. Frictions above STEEPEST stand for a rigid
+    hold, whose column force is that of STEEPEST.
     """
-    slope = slope_friction * hold
+    friction = min(friction, STEEPEST)
+    slope = min(slope_friction, STEEPEST) * hold
     # tan(a + phi) = (tan a + slope)/(1 - slope tan a), put under one fraction.
     above = 1.0 - slope * tangent
     below = tangent + slope - friction * hold * above

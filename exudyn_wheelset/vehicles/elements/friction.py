@@ -21,6 +21,9 @@ PRESLIDING = 2.5e-4
 DAMPING_TIME = 4.0e-4
 # Beyond it no face is known, but rigid connections are its limit.
 _HIGHEST_FRICTION = 1.0e9
+# No hold is stiffer [N/m], at its load in the drawing: rigid beside all springs, and still 1e-16 m
+# of rounding are no force.
+_STIFFEST = 1.0e10
 # A hold of hunting, part of the slip force.
 _SCALE = 0.1
 
@@ -104,6 +107,7 @@ class Friction:
         data[places.P_DAMPING_TIME] = self.damping_time
         data[places.P_COUPLED] = float(self.coupled)
         data[places.P_COUNT] = len(self.slidings)
+        pressing = self.force or max(preload[2], 0.0)
         if self.kind != places.CONSTANT and self.stiffness > 0.0:
             load = preload[2]
             compressed = load / self.stiffness
@@ -117,7 +121,10 @@ class Friction:
                 rocking = 0.25 * self.stiffness * self.radius**2
                 data[[places.P_TILT_X, places.P_TILT_Y]] = -preload[3:5] / rocking
                 preload[3:5] = 0.0
-        rows = [(*one.row, one.friction, one.presliding) for one in self.slidings]
+        rows = [
+            (*one.row, one.friction, max(one.presliding, one.friction * pressing / _STIFFEST))
+            for one in self.slidings
+        ]
         return np.concatenate([data, np.array(rows).ravel()])
 
 
