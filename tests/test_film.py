@@ -40,11 +40,15 @@ def test_wheels_are_turned_from_their_profile(car):
     outside = np.hypot(points[:, 0], points[:, 2])
     low, high = wheelset.wheel.span
     # Between the side faces, where the profile is.
-    on_rim = (y > low + 1e-6) & (y < high - 1e-6)
+    on_rim = (y > low + 5e-3) & (y < high - 5e-3)
     assert on_rim.sum() > 1000
-    expected = wheelset.radius - wheelset.wheel.height(y[on_rim])
-    # Exudyn keeps its graphics in single precision.
-    assert np.abs(outside[on_rim] - expected).max() < 1e-6
+    dense = np.linspace(low, high, 4000)
+    curve = np.column_stack([dense, wheelset.radius - wheelset.wheel.height(dense)])
+    drawn = np.unique(np.column_stack([y, outside])[on_rim].round(7), axis=0)
+    off = np.linalg.norm(drawn[:, None] - curve[None], axis=2).min(axis=1)
+    # Chords of 2.5 mm are 0.13 mm off a throat of 6 mm radius; their ends lie on the curve.
+    assert off.max() < 2e-4
+    assert (off < 4e-5).sum() >= 0.5 * len(off)
 
 
 def test_rails_have_their_section():
