@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.catalogue import lateral_kernel as kernel
+from exudyn_wheelset.catalogue import lateral_motion as motion
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
@@ -29,7 +30,8 @@ from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_cells
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
-from exudyn_wheelset.systems.system import DynamicSystem
+from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
 
 CODES = ("mohan", "idealized", "profiled")
 
@@ -251,6 +253,46 @@ class LateralWheelset(DynamicSystem):
                 state, speed, self._p, breaks, coefficients, self._sides
             )
         return np.array([state[2], state[3], *accelerations])
+
+    @property
+    def _tables(self) -> tuple[np.ndarray, np.ndarray]:
+        """Breaks and coefficients of the geometry; empty ones for the code that has none."""
+        return (np.zeros(2), np.zeros((1, 1, 1))) if self.code == "mohan" else self._geometry
+
+    def derivatives(self, states: np.ndarray, speed: float) -> np.ndarray:
+        states = np.ascontiguousarray(states, dtype=float)
+        rates = np.empty_like(states)
+        small = self.code == "mohan"
+        motion.lateral_rates(states, float(speed), self._p, *self._tables, small, rates)
+        return rates
+
+    def simulate(self, state: np.ndarray, speed: float, times: np.ndarray) -> np.ndarray:
+        times = np.ascontiguousarray(times, dtype=float)
+        samples = np.empty((len(times), motion.STATES))
+        ending, filled, reached = motion.lateral_motion(
+            np.array(state, dtype=float),
+            float(speed),
+            self._p,
+            *self._tables,
+            self.code == "mohan",
+            times,
+            self.scales,
+            float(self.lateral_limit),
+            samples,
+        )
+        if ending == motion.FINISHED:
+            return samples
+        outcome = Outcome(Ending.NO_CONVERGENCE, f"no step is small enough at {reached:.3f} s")
+        if ending == motion.LEFT_TRACK:
+            limit = f"|y| = {1e3 * self.lateral_limit:.1f} mm"
+            outcome = Outcome(Ending.LOST_GAUGE, f"{limit} at {reached:.3f} s")
+        raise SimulationError(
+            f"{self.name}: the motion at {speed:g} m/s ended at sample {filled} of "
+            f"{len(times)}: {outcome}",
+            times[:filled],
+            samples[:filled],
+            outcome,
+        )
 
     def contact_state(self, state: np.ndarray, speed: float) -> dict[str, np.ndarray]:
         """Forces, creepages and patches (left, right) at a state, by name."""
