@@ -187,14 +187,19 @@ class Branch:
             found.append(_lagrange(along[near], column[near], where))
         return np.array(found)
 
-    def lowest_stable(self) -> tuple[float, str]:
+    def lowest_stable(self, large: Array | None = None) -> tuple[float, str]:
         """Lowest speed [m/s] at which a cycle of the branch is stable, and what bounds it there.
 
+        large: (points,) which cycles count; those count too that are stable from the Hopf point on.
         Raises AnalysisError if no cycle of the branch is stable.
         """
-        if not np.any(self.stable):
+        counts = np.ones(len(self), dtype=bool) if large is None else np.array(large, dtype=bool)
+        if self.hopf is not None and self.stable[0] and self.speed[0] > self.hopf[0] * (1 - 2e-3):
+            first_unstable = np.flatnonzero(~self.stable)
+            counts[: first_unstable[0] if len(first_unstable) else len(self)] = True
+        if not np.any(self.stable & counts):
             raise AnalysisError(f"no limit cycle of the branch is stable; {self.reason}")
-        candidates = [(float(self.speed[i]), i) for i in np.flatnonzero(self.stable)]
+        candidates = [(float(self.speed[i]), i) for i in np.flatnonzero(self.stable & counts)]
         speed, index = min(candidates)
         what = "the end of the branch" if index in (0, len(self) - 1) else "a point of the branch"
         if index == 0 and self.hopf is not None:
@@ -204,10 +209,11 @@ class Branch:
                 what = "the first orbit of the branch, below the Hopf point it starts from"
         for fold in self.folds:
             beside = self.stable[max(0, fold.index - 1) : fold.index + 2]
-            if fold.side == "lowest" and np.any(beside) and fold <= speed:
+            counted = fold.side == "lowest" and counts[fold.index]
+            if counted and np.any(beside) and fold <= speed:
                 speed, what = float(fold), "the fold of the limit cycle"
         for change in self.changes:
-            if change < speed:
+            if change < speed and counts[change.index]:
                 speed, what = float(change), f"a {change.kind} of the limit cycle"
         return speed, what
 

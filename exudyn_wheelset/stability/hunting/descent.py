@@ -37,6 +37,9 @@ from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 KIND = "quasi-static descent"
+# A fall to less than a third, to less than a tenth of the scale (0.1 mm), is the end of hunting:
+# wheelsets on S1002 have a ripple of 0.05 mm where nothing else lives.
+FALL, RIPPLE = 1.0 / 3.0, 0.1
 
 
 @brief
@@ -257,7 +260,7 @@ class _Run:
             self.time += motion.time
             self.outcome = Outcome(Ending.CONTACT_LOST, f"at {speed:.4f} m/s: {motion.failure}")
             return
-        if verdict is Ending.DIED_OUT:
+        if verdict is Ending.DIED_OUT or not self._goes_on(motion, last):
             self.time += motion.time
             self.jumped = speed
         else:
@@ -326,6 +329,15 @@ class _Run:
 
     def _motion(self, speed: float, state: Array, period: float) -> WatchedMotion:
         return WatchedMotion(self.system, speed, state, period, self.watched, self.settling)
+
+    def _goes_on(self, motion: WatchedMotion, last: int) -> bool:
+        """Whether a truck goes on hunting, and has not fallen from a cycle to a ripple."""
+        sizes = motion.truck_amplitudes()
+        for name, before in zip(self.watched, self.trucks[last], strict=True):
+            ripple = RIPPLE * self.system.scales[self.watched[name]]
+            if sizes[name] < min(ripple, FALL * before):
+                motion.hunting[name] = False
+        return any(motion.hunting.values())
 
     def _keep(self, speed: float, motion: WatchedMotion, settled: bool) -> None:
         self.speeds.append(speed)

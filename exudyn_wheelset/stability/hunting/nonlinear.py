@@ -6,10 +6,12 @@ disturbance dies out. Two methods give it: `continuation` follows the limit cycl
 fold, `descent` simulates down to the jump; each result says which made the number and how.
 
 Cycles may coexist on branches that no Hopf point leads to (a small one on the tread and a large
-one at the flange). So what continuation finds is checked by a coarse descent from a large
-disturbance: where that still hunts below the answer, its motion is made an orbit, the branch
-through it is followed, and the lowest speed of all branches is the answer. Vehicles with several
-trucks have several Hopf points close together and beat when all hunt; descent is their default.
+one at the flange). So what continuation finds is checked at speeds below it from large starts of
+several kinds (see `large_starts`): where one goes on hunting, its motion is made an orbit, the
+branch through it is followed, and the lowest speed of all branches is the answer. Cycles of less
+than `smallest` are not called hunting: on S1002 a ripple of 0.05 mm lives at speeds at which
+nothing else does. Vehicles with several trucks have several Hopf points close together and beat
+when all hunt; descent is their default.
 """
 
 from __future__ import annotations
@@ -27,13 +29,14 @@ from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
     from exudyn_wheelset.stability.gradients import Gradient
@@ -45,15 +48,18 @@ SEARCH = ((5.0, 60.0), (60.0, 120.0), (120.0, 240.0), (240.0, 480.0))
 
 
 # A branch may rise to this multiple of the Hopf point's speed before it turns back to the flange
-# and to its lowest fold: that of the S1002 wheelset rises to 1.26.
+# and to its lowest fold: that of the S1002 wheelset rises to 1.26. What lies behind a later turn
+# is found from large starts.
 REACH = 1.3
 # Large disturbances: the hunting mode with so many scales (millimetres) of lateral displacement, on
 # the flange and short of it. A motion on the flange may hunt where a smaller one does not.
 LARGE = (10.0, 5.0)
-# The descent that checks a continuation takes steps of this share of the Hopf point's speed and
-# adds no more than so many branches.
-CHECK_STEP, MOST_BRANCHES = 0.04, 2
-# Criterion of the coarse descent and of the simulated check beside a fold.
+# Speeds of the large starts that check a continuation, as shares of its answer; no more than so
+# many branches are added.
+CHECKED, MOST_BRANCHES = (0.985, 0.93, 0.85), 3
+# Amplitude, in scales (millimetres), from which a cycle is called hunting.
+SMALLEST = 0.1
+# Criterion of the large starts and of the simulated check beside a fold.
 SHORT = Settling(tolerance=5e-3, cycles=150)
 
 
@@ -119,6 +125,7 @@ def nonlinear_critical_speed(
     high: float | None = None,
     hopf: CriticalPoint | None = None,
     check: bool = True,
+    smallest: float = SMALLEST,
     step: float | None = None,
     tolerance: float = 0.02,
     watch: str | int | None = None,
@@ -133,8 +140,10 @@ def nonlinear_critical_speed(
     low, high   range of speeds looked at [m/s]; default 0.4 and 1.3 times the Hopf point's by
                 continuation, 0.4 and 1.1 times by descent
     hopf        where to begin; default the lowest speed at which a pair loses stability
-    check       of the continuation: whether hunting is looked for below its answer, from a large
-                disturbance
+    check       of the continuation: whether hunting is looked for below its answer, from large
+                starts
+    smallest    amplitude of a watched displacement, in its scale (millimetres), from which a cycle
+                is called hunting; a branch that begins stably at the Hopf point counts from there
     settings    of the continuation
     step, tolerance, watch, settling, state_file   of the descent: steps of the speed [m/s]
                 (default 1 % of the Hopf point's), width of the final bracket [m/s], ...
@@ -154,7 +163,7 @@ def nonlinear_critical_speed(
         high = (REACH if method == "continuation" else 1.1) * hopf.speed
     high = float(high)
     if method == "continuation":
-        return _by_continuation(system, hopf, (low, high), check, settings, progress)
+        return _by_continuation(system, hopf, (low, high), check, smallest, settings, progress)
     options: dict[str, Any] = {
         "step": 0.01 * hopf.speed if step is None else step,
         "tolerance": tolerance,
@@ -190,26 +199,21 @@ def _by_continuation(
     hopf: CriticalPoint,
     speeds: tuple[float, float],
     check: bool,
+    smallest: float,
     settings: ContinuationSettings | None,
     progress: bool,
 ) -> NonlinearCriticalSpeed:
     branches = [limit_cycles(system, hopf, speeds, settings=settings, progress=progress)]
-    remarks = []
-    if check:
-        for _ in range(MOST_BRANCHES):
-            remark, start = _hunting_below(system, hopf, _lowest(branches), speeds)
-            remarks.append(remark)
-            if start is None:
-                break
-            state, speed = start
-            try:
-                branches.append(
-                    limit_cycles(system, state, speeds, start_speed=speed, settings=settings)
-                )
-            except AnalysisError as error:
-                remarks.append(f"that motion could not be made an orbit: {error}")
-                break
-    found = _lowest(branches)
+    remarks: list[str] = []
+    for _ in range(MOST_BRANCHES if check else 0):
+        found = _lowest(system, branches, smallest)
+        answer = found[0] if found else speeds[1]
+        added, said = _hunting_below(system, answer, speeds, smallest, settings)
+        remarks += said
+        if added is None:
+            break
+        branches.append(added)
+    found = _lowest(system, branches, smallest)
     if found is None:
         message = f"no limit cycle is stable for certain; {branches[0].reason}"
         raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
@@ -221,11 +225,19 @@ def _by_continuation(
     if fold is not None:
         speed, what = fold, "the fold of the limit cycle, beside which simulated motion stays"
     place = "from the Hopf point" if branch is branches[0] else "from a motion that hunts"
+    means = "collocation and pseudo-arclength continuation"
+    if branch.method != "continuation":
+        means = f"{branch.method} ({branch.record.get('why', 'Newton does not serve')})"
     how = (
         f"{speed:.4f} m/s is {what}, on a branch of {len(branch)} periodic orbits followed by "
-        f"collocation and pseudo-arclength continuation {place}; {_linear(hopf)}; the branch ends "
-        f"because {branch.reason}"
+        f"{means} {place}; {_linear(hopf)}; the branch ends because {branch.reason}"
     )
+    ripple = _lowest(system, branches, 0.0)
+    if ripple is not None and ripple[0] < speed - 1e-9:
+        how += (
+            f"; a cycle smaller than {smallest:g} scales, which is not called hunting, lives down "
+            f"to {ripple[0]:.4f} m/s"
+        )
     if branch.uncertain.any():
         how += f"; of {np.count_nonzero(branch.uncertain)} orbits the stability is uncertain"
     return NonlinearCriticalSpeed(
@@ -240,12 +252,21 @@ def _by_continuation(
     )
 
 
-def _lowest(branches: list[Branch]) -> tuple[float, str, Branch] | None:
-    """Lowest speed with a stable cycle over branches, what bounds it, and its branch."""
+def _lowest(
+    system: DynamicSystem, branches: list[Branch], smallest: float
+) -> tuple[float, str, Branch] | None:
+    """Lowest speed with a stable cycle over branches, what bounds it, and its branch.
+
+    Cycles below `smallest` scales count only where they begin at a Hopf point.
+    """
     found = []
+    places = list(watched_trucks(system).values())
+    columns = [list(system.displacement_indices).index(place) for place in places]
     for branch in branches:
+        relative = np.asarray(branch.amplitude)[:, columns] / system.scales[places]
+        large = relative.max(axis=1) >= smallest
         try:
-            found.append((*branch.lowest_stable(), branch))
+            found.append((*branch.lowest_stable(large), branch))
         except AnalysisError:
             continue
     return min(found, key=lambda entry: entry[0]) if found else None
@@ -275,41 +296,32 @@ def _simulated_fold(system: DynamicSystem, branch: Branch, speed: float) -> floa
 
 def _hunting_below(
     system: DynamicSystem,
-    hopf: CriticalPoint,
-    found: tuple[float, str, Branch] | None,
+    answer: float,
     speeds: tuple[float, float],
-) -> tuple[str, tuple[Array, float] | None]:
-    """What a coarse descent from a large disturbance says of hunting below what was found.
-
-    Returns a sentence, and the state and speed [m/s] of a motion that hunts there, if any.
-    """
-    low, high = speeds
-    answer = found[0] if found else high
-    coarse = CHECK_STEP * max(abs(hopf.speed), high - low)
-    margin = answer - 0.25 * coarse if found is not None else np.inf
-    hunted = False
-    for size in LARGE:
-        try:
-            descent = quasi_static_descent(
-                system,
-                high,
-                max(low, answer - 6.0 * coarse),
-                step=coarse,
-                tolerance=coarse,
-                disturbance=size,
-                settling=SHORT,
-            )
-        except AnalysisError:
+    smallest: float,
+    settings: ContinuationSettings | None,
+) -> tuple[Branch | None, list[str]]:
+    """The branch through a motion that hunts below the answer [m/s], if any; what was checked."""
+    tried = []
+    for share in CHECKED:
+        speed = speeds[0] + share * (answer - speeds[0]) if answer <= 0.0 else share * answer
+        if not speeds[0] < speed < answer:
             continue
-        hunted = True
-        lowest = float(np.min(descent.speeds))
-        if lowest <= margin:
-            state = descent.states[int(np.argmin(descent.speeds))]
-            return f"a motion from a large disturbance hunts at {lowest:.4g} m/s", (state, lowest)
-    where = f"from large disturbances at {high:.4g} m/s"
-    if not hunted:
-        return f"checked: no hunting {where}", None
-    return f"checked by descent {where}: none lower", None
+        tried.append(f"{speed:.4g}")
+        hunting = hunting_at(system, speed, SHORT, smallest)
+        if hunting is None:
+            continue
+        words, motion = hunting
+        said = f"a motion from {words} hunts at {speed:.4g} m/s"
+        try:
+            branch = limit_cycles(
+                system, motion.state, speeds, start_speed=speed, settings=settings
+            )
+        except AnalysisError as error:
+            return None, [f"{said}; it could not be made an orbit: {error}"]
+        return branch, [said]
+    where = f"{', '.join(tried)} m/s" if tried else "no speed: the range ends there"
+    return None, [f"checked from large starts at {where}: none hunts"]
 
 
 def _trucks_at(system: DynamicSystem, branch: Branch, speed: float) -> tuple[str, ...]:

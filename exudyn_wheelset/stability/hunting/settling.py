@@ -47,6 +47,12 @@ FAR_DOWN = 0.01
 LEAP, LEAP_BLOCKS, STIRRED = 0.3, 12, 3
 # Least fall over the second half of a motion that says where it goes.
 SHOWN = 0.03
+# Share of the amplitude of rest that is no motion but the integrator's error.
+ROUNDING = 1e-4
+# A motion that falls when its cycles are over is followed for so many times them.
+PATIENCE = 3
+# Least fall over TREND blocks, relative.
+FALLEN = 2e-3
 # A truck below the amplitude of rest and this share of another's does not hunt by itself.
 SHAKEN = 0.1
 
@@ -157,6 +163,9 @@ class WatchedMotion:
             if self.cycles < self.settling.cycles:
                 continue
             falling = [means for name, means in self.by_truck.items() if self.hunting[name]]
+            # A fall may end on a cycle further down: it is followed while it goes on.
+            if self.cycles < PATIENCE * self.settling.cycles and all(map(_falls, falling)):
+                continue
             if all(map(_falls_away, self.by_truck.values())):
                 return Ending.DIED_OUT
             return self._probe() if all(map(_falls_steadily, falling)) else verdict
@@ -229,8 +238,9 @@ class WatchedMotion:
 
 def _judge(means: list[float], rest: float, tolerance: float) -> Ending:
     """What the block means of one truck say; rest: the amplitude that counts as none."""
-    # A motion that began smaller than the threshold of rest is measured by its beginning.
-    if means[-1] < min(rest, 0.2 * means[0]):
+    # A motion that began smaller than the threshold of rest is measured by its beginning; what
+    # simulations leave of rest, by the threshold.
+    if means[-1] < min(rest, max(0.2 * means[0], ROUNDING * rest)):
         return Ending.DIED_OUT
     if len(means) < 4:
         return Ending.UNDECIDED
@@ -261,6 +271,14 @@ def _beats(means: list[float]) -> bool:
     same_level = abs(level - float(np.mean(before))) < BEAT_MEAN * level
     ranges = float(np.ptp(before)), float(np.ptp(after))
     return bool(turns >= 2 and same_level and abs(ranges[1] - ranges[0]) < BEAT_RANGE * max(ranges))
+
+
+def _falls(means: list[float]) -> bool:
+    """Whether the amplitude has fallen in each of the last TREND steps, by more than rounding."""
+    if len(means) < TREND + 1:
+        return False
+    logs = np.diff(np.log(means[-TREND - 1 :]))
+    return bool(np.all(logs < 0.0) and np.sum(logs) < -FALLEN)
 
 
 def _falls_away(means: list[float]) -> bool:
