@@ -39,8 +39,6 @@ def test_fold_of_the_large_cycle_of_the_lateral_model():
     found = nonlinear_critical_speed(system, low=17.0, high=23.0)
     assert found.branch.method == "settled motions"
     assert found.branch.amplitude["y"].min() > 1e-3
-    assert found.others[0].lowest_stable()[0] < found.speed - 0.2
-    assert "which is not called hunting" in found.how
     start = [3e-3, 0.0, 0.0, 0.0]
     # A motion that passes the place of a fold 0.15 m/s above lingers for a minute.
     assert amplitude_after(system, start, found.speed - 0.15) < 0.1e-3
