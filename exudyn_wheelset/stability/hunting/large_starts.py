@@ -40,9 +40,10 @@ def large_starts(system: DynamicSystem, speed: float) -> Iterator[tuple[str, Arr
     linear = linearised(system, speed)
     rest = linear.state
     lateral = list(system.lateral_indices)
-    rates = [_rate_of(linear.jacobian, index) for index in lateral]
+    found = [_rate_of(linear.jacobian, index) for index in lateral]
+    rates = [index for index in found if index is not None]
     kinds = [("mode", size) for size in MODES] + [("shift", size) for size in SHIFTS]
-    if lateral and None not in rates:
+    if lateral and len(rates) == len(lateral):
         kinds = [
             ("blow", BLOWS[0]),
             ("mode", MODES[0]),
