@@ -4,8 +4,9 @@ Pressure, constant on the cells of a regular grid (x along rolling, s across), f
     pressure >= 0,  u >= p(s) - A x^2,  pressure (u - p + A x^2) = 0,
     u(x, s) = 1/(pi E*) int int pressure/distance,  1/E* = (1 - nu)/G for two bodies alike,
 by conjugate gradients on the cells in contact (Polonsky and Keer 1999); u of a cell by Love's
-closed form (K. L. Johnson, Contact Mechanics, 1985, equation 3.25), sums by FFT. What stays out is
-what a planar half-space leaves out: the bend of the contact plane across the patch.
+closed form (K. L. Johnson, Contact Mechanics, 1985, equation 3.25), sums by FFT. Where the contact
+surface bends across the patch (conformal contact), pressure acts along the local normal and its
+displacement is felt by its part along the normal there: cos(a - b) = cos a cos b + sin a sin b.
 
 The solution makes W = int pressure (p - A x^2) - 1/2 int pressure u the greatest, so the stored
 energy is U = 1/2 int pressure (p - A x^2), a rise dp(s) of the penetration does the work
@@ -14,9 +15,15 @@ int n(s) dp(s) ds with n the load of a strip, and any other pressure gives a sma
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+
+from exudyn_wheelset.contact.layout import HEADER, SIDE, Axle
+from exudyn_wheelset.contact.locus import rail_foot, wheel_point
+from exudyn_wheelset.contact.search import grid_foot
+from exudyn_wheelset.contact.tables import contact_tables
 
 
 @dataclass(frozen=True)
@@ -56,12 +63,20 @@ def influence(across: int, along: int, ds: float, dx: float) -> np.ndarray:
 
 
 def half_space_contact(
-    s, penetration, half_curvature, shear_modulus, poisson, along=40, tolerance=1e-7
+    s,
+    penetration,
+    half_curvature,
+    shear_modulus,
+    poisson,
+    along=40,
+    tolerance=1e-7,
+    normal=(0.0, 1.0),
 ):
     """Solve on the grid of s (uniform) [m] where penetration [m] is given; return a HalfSpace.
 
     half_curvature A [1/m], a number or one for each s; along: cells over the half length of the
-    overlap along rolling (the pressure is even in x).
+    overlap along rolling (the pressure is even in x); normal (ny, nz): of the surface, numbers or
+    one for each s.
     """
     s, penetration = np.asarray(s), np.asarray(penetration)
     curvature = np.broadcast_to(half_curvature, s.shape)
@@ -77,8 +92,13 @@ def half_space_contact(
     kernel[:, len(x) + 1 :] = kernel[:, 1 : len(x)][:, ::-1]
     transformed = np.fft.rfft2(kernel)
 
-    def displaced(pressure):
+    def planar(pressure):
         return np.fft.irfft2(np.fft.rfft2(pressure, shape) * transformed, shape)[: len(s), : len(x)]
+
+    parts = [np.broadcast_to(part, s.shape)[:, None] for part in normal if np.any(part)]
+
+    def displaced(pressure):
+        return sum(part * planar(part * pressure) for part in parts)
 
     pressure = np.maximum(gap, 0.0)
     pressure *= (pressure * gap).sum() / (pressure * displaced(pressure)).sum()
@@ -107,3 +127,41 @@ def half_space_contact(
         float(0.5 * (pressure * gap).sum() * ds * dx),
         float(pressure.max()),
     )
+
+
+def gap_of_left_wheel(wheelset, track, y, z, roll, spacing=2.5e-5):
+    """Arc length, penetration, normal (y, z) and half curvature along x of the left wheel."""
+    table = contact_tables(wheelset, track)
+    side = table[:HEADER].view(SIDE)[0]
+    axle = Axle(y, side["radius"] + z, 0.0, math.cos(roll), math.sin(roll))
+    rows = []
+    for arc in np.arange(0.0, side["wheel"]["segments"] * side["wheel"]["spacing"], spacing):
+        _, py, pz, ny, nz, radius, _, _ = wheel_point(table, side, arc, axle)
+        if not side["rail_low"] < py < side["rail_high"]:
+            continue
+        foot = grid_foot(table, side, arc, axle)
+        for _ in range(3):
+            foot, ty, tz, _, height = rail_foot(table, side, py, pz, foot)
+        normal = np.array([-tz - ny, ty - nz])
+        normal /= np.hypot(*normal)
+        rows.append((arc, -height, *normal, 0.5 * normal[1] / radius))
+    return np.array(rows).T
+
+
+def contact_of_gap(gap, shear_modulus=82e9, poisson=0.28, along=32, across=128, steeper=0.0):
+    """Contact of a gap from `gap_of_left_wheel`, as it bends, on a grid of 2 along x across cells.
+
+    Returns the load, its force (y, z) [N], the peak pressure [Pa], and the load where the contact
+    angle is greater than `steeper` [rad].
+    """
+    arc, penetration = gap[:2]
+    inside = arc[penetration > 0.0]
+    spacing = (inside[-1] - inside[0] + 6e-5) / across
+    s = inside[0] - 3e-5 + spacing * (np.arange(across) + 0.5)
+    depth, ny, nz, curvature = (np.interp(s, arc, row) for row in gap[1:])
+    found = half_space_contact(
+        s, depth, curvature, shear_modulus, poisson, along, 1e-6, normal=(ny, nz)
+    )
+    load = found.line_load * spacing
+    beyond = np.arctan2(-ny, nz) > steeper
+    return load.sum(), load @ ny, load @ nz, found.peak_pressure, load[beyond].sum()

@@ -1,6 +1,6 @@
 """normal="strips" against the elastic half-space on a grid, Hertz's closed forms and FASTSIM.
 
-half_space_contact.py is the second method: a grid in two dimensions, no assumption on the shape of
+half_space.py is the second method: a grid in two dimensions, no assumption on the shape of
 the pressure. Its own error, from Hertz's ellipse on a like grid, is 0.1 % in force and 1 % in peak
 pressure. Poses are rigid positions of S1002 on UIC60 1:40, lowered.
 """
@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 import pytest
-from half_space_contact import gap_of_left_wheel, half_space_contact
+from half_space import contact_of_gap, gap_of_left_wheel
 from scipy.integrate import quad
 
 from exudyn_wheelset import Track, Wheelset, contact_forces, contact_geometry, creep_force
@@ -50,7 +50,7 @@ def test_the_grid_gives_hertz_on_a_parabola():
     s = np.arange(-0.012, 0.012, 1e-4)
     gap = np.array([s, 6e-5 - 1.7 * s * s, 0 * s, 1 + 0 * s, 1.1 + 0 * s])
     force, a, b = hertz_from_approach(1.1, 1.7, 6e-5, 82e9, 0.28)
-    found, _, _, peak, _ = half_space_contact(gap)
+    found, _, _, peak, _ = contact_of_gap(gap)
     assert found == pytest.approx(force, rel=2e-3)
     assert peak == pytest.approx(1.5 * force / (math.pi * a * b), rel=0.01)
 
@@ -61,7 +61,7 @@ def test_force_and_peak_pressure(name):
     y, depth = POSES[name]
     z, roll = lowered(y, depth)
     gap = gap_of_left_wheel(WHEELSET, TRACK, y, z, roll)
-    _, wanted_y, wanted_z, peak, _ = half_space_contact(gap)
+    _, wanted_y, wanted_z, peak, _ = contact_of_gap(gap)
     force, patches = left_force(y, z, roll, normal="strips")
     assert force[1] == pytest.approx(wanted_y, rel=0.02)
     assert force[2] == pytest.approx(wanted_z, rel=0.02)
@@ -81,7 +81,7 @@ def test_tread_and_throat_share_the_load(y, normal):
     z, roll = lowered(y, 6e-5)
     gap = gap_of_left_wheel(WHEELSET, TRACK, y, z, roll)
     # The contact angle is 11 degrees in the valley between the two.
-    load, _, vertical, _, in_throat = half_space_contact(gap, steeper=math.radians(11.0))
+    load, _, vertical, _, in_throat = contact_of_gap(gap, steeper=math.radians(11.0))
     force, patches = left_force(y, z, roll, normal=normal)
     assert force[2] == pytest.approx(vertical, rel=0.02)
     if len(patches) == 2:
