@@ -218,8 +218,11 @@ def test_no_folder_is_left_behind(tmp_path, monkeypatch, truck):
     settings = exu.SimulationSettings()
     settings.timeIntegration.verboseMode = 0
     settings.timeIntegration.endTime = 0.01
+    settings.timeIntegration.verboseModeFile = 2
+    settings.solution.restart.write = True
+    simulate(dtu_truck(), 30.0, 0.01, settings=settings)
     run_solver(mbs, settings, exu.DynamicSolverType.RK44)
-    assert settings.solution.file.write
+    assert settings.solution.file.write and settings.timeIntegration.verboseModeFile == 2
     assert list(tmp_path.iterdir()) == []
     settings.solution.file.name = "mine"
     run_solver(mbs, settings, exu.DynamicSolverType.RK44)

@@ -1,9 +1,9 @@
 """Running Exudyn's solver on a model: watched, interruptible, quiet, and without files.
 
 Between its steps the solver lets Python look at the wheelsets and at the keyboard: a run ends where
-a wheelset leaves the rails (derailment.py) or on Ctrl-C, and keeps what it has. Exudyn's solution
-file is written only where the settings give it a name of its own (`solution.file.name`): no folder
-`solution/` is left behind by everyone who did not switch it off.
+a wheelset leaves the rails (derailment.py) or on Ctrl-C, and keeps what it has. Exudyn's files
+(solution, restart, solver information) are written only where the settings give them names of their
+own (`solution.file.name`): no folder `solution/` is left behind by who did not switch them off.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from exudyn_wheelset.results.endings import Ending, Outcome
 
 # Wheelsets are looked at this often [s]: a derailing wheel needs some 20 ms over its flange.
 CHECK_INTERVAL = 2.0e-3
-# Name of Exudyn's solution file where none is given.
-_SOLUTION_FILE = exu.SimulationSettings().solution.file.name
+# Names of Exudyn's files where none are given.
+_DEFAULT: Any = exu.SimulationSettings().solution
 
 
 class QuietExudyn:
@@ -39,6 +39,25 @@ class QuietExudyn:
         config.suppressWarnings, config.printToConsole = self._kept
 
 
+class OwnFilesOnly:
+    """Keeps Exudyn from writing files, within a `with`, that the settings do not name."""
+
+    def __init__(self, settings: exu.SimulationSettings) -> None:
+        self._settings: Any = settings
+
+    def __enter__(self) -> None:
+        solution, integration = self._settings.solution, self._settings.timeIntegration
+        self._kept = solution.file.write, solution.restart.write, integration.verboseModeFile
+        solution.file.write &= solution.file.name != _DEFAULT.file.name
+        solution.restart.write &= solution.restart.name != _DEFAULT.restart.name
+        if solution.solverInformationFileName == _DEFAULT.solverInformationFileName:
+            integration.verboseModeFile = 0
+
+    def __exit__(self, *_: object) -> None:
+        solution, integration = self._settings.solution, self._settings.timeIntegration
+        solution.file.write, solution.restart.write, integration.verboseModeFile = self._kept
+
+
 def copied_settings(settings: exu.SimulationSettings | None) -> exu.SimulationSettings:
     """A copy of Exudyn's settings (default: its own) that writes no files and says nothing.
 
@@ -49,7 +68,9 @@ def copied_settings(settings: exu.SimulationSettings | None) -> exu.SimulationSe
     if settings is not None:
         copy.SetDictionary(settings.GetDictionary())
     copy.solution.file.write = False
+    copy.solution.restart.write = False
     copy.timeIntegration.verboseMode = 0
+    copy.timeIntegration.verboseModeFile = 0
     copy.timeIntegration.explicit.computeEndOfStepAccelerations = False
     return copy
 
@@ -119,9 +140,6 @@ def run_solver(
     integration = settings.timeIntegration
     start, end = integration.startTime, integration.endTime
     bar = progress_bar(end - start, progress, description)
-    file = settings.solution.file
-    kept = file.write
-    file.write = kept and file.name != _SOLUTION_FILE
     before = mbs.GetPreStepUserFunction(asDict=True)
     theirs = before["function"] if isinstance(before, dict) else before or None
     overseer = _Overseer(start, end, contacts, bar, theirs)
@@ -131,7 +149,7 @@ def run_solver(
     kind = integration.solverType if solver_type is None else solver_type
     mbs.SetPreStepUserFunction(overseer)
     try:
-        with bar, QuietExudyn():
+        with bar, QuietExudyn(), OwnFilesOnly(settings):
             try:
                 done = mbs.SolveDynamic(settings, solverType=kind, showHints=False)
                 found = Outcome(Ending.FINISHED if done else Ending.NO_CONVERGENCE)
@@ -141,7 +159,6 @@ def run_solver(
             if outcome.ending is Ending.FINISHED:
                 bar.update(end - start - bar.n)
     finally:
-        file.write = kept
         mbs.SetPreStepUserFunction(theirs or 0)
         if handler is not None:
             signal.signal(signal.SIGINT, handler)
