@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from exudyn_wheelset.front.plots import LEFT_COLOUR, RIGHT_COLOUR, WHEEL_COLOUR
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
-from exudyn_wheelset.stability.linear.linearisation import RootLocus, root_locus
+from exudyn_wheelset.stability.linear.linearisation import Linearisation, RootLocus, root_locus
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
 
 # A rail's distance from the track's centre, half the length of an axle, half the width of a body,
@@ -50,16 +50,49 @@ def draw_roots(
     span: tuple[float, float] = (0.4, 1.6),
     decay: float = 10.0,
     highest_frequency: float = 12.0,
+    named: Linearisation | None = None,
 ) -> None:
     """Draw the root locus of a vehicle at speeds of `span` times the critical, with its scale.
 
     Roots that decay faster than `decay` [1/s] or lie above highest_frequency [Hz] are left out.
+    named: the equations at one speed, whose modes get their names written beside their roots.
     """
     speeds = np.linspace(span[0] * critical.speed, span[1] * critical.speed, 61)
     locus = root_locus(vehicle, speeds)
     marks = draw_root_locus(axes, locus, highest_frequency, critical.speed)
     axes.set_xlim(-decay, max(0.1 * decay, 1.2 * float(np.real(locus.eigenvalues).max())))
     axes.figure.colorbar(marks, ax=axes, label="speed [m/s]")
+    if named is not None:
+        _name_modes(axes, named, highest_frequency)
+
+
+def _name_modes(axes: Axes, linear: Linearisation, highest_frequency: float) -> None:
+    """Write names beside roots inside the axes, from below, each clear of those before.
+
+    Modes of one name within a hertz, as two trucks have them, are named once.
+    """
+    left, right = axes.get_xlim()
+    shown: list[tuple[float, float, str]] = []
+    for name, root in linear.oscillations(highest=highest_frequency):
+        frequency = root.imag / (2.0 * np.pi)
+        known = any(other == name and abs(frequency - f) < 1.0 for f, _, other in shown)
+        if left < root.real < right and not known:
+            shown.append((frequency, root.real, name))
+    taken = -np.inf
+    for frequency, decay, name in sorted(shown):
+        height = taken = max(frequency, taken + 0.04 * highest_frequency)
+        leftwards = decay > left + 0.45 * (right - left)
+        axes.annotate(
+            name,
+            (decay, frequency),
+            xytext=(decay + (-0.03 if leftwards else 0.03) * (right - left), height),
+            fontsize=7,
+            va="center",
+            ha="right" if leftwards else "left",
+            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "0.5"},
+            bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "alpha": 0.7, "lw": 0},
+        )
+    axes.set_ylim(0.0, 1.08 * highest_frequency)
 
 
 def draw_critical_speeds(
@@ -109,7 +142,7 @@ def draw_mode_from_above(
 
         def moved(part: str, turn: complex = turn) -> tuple[float, float]:
             """Lateral displacement [m] and yaw [rad] of a part in the picture."""
-            y, yaw = (motion.get(f"{part}: {what}", 0.0) for what in ("y", "yaw"))
+            y, yaw = (motion.get(f"{part}: {w}", motion.get(w, 0.0)) for w in ("y", "yaw"))
             return scale * (y * turn).real, scale * (yaw * turn).real
 
         for name, (rear, front) in reaches.items():

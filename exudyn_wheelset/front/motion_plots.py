@@ -60,6 +60,7 @@ def draw_lateral(
     axes.set_title(title or f"{motion.speed:.2f} m/s: {motion.outcome}", fontsize=10)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("y [mm]")
+    axes.margins(y=0.2)
     corner: Any = "upper left" if last > 0.5 * len(motion) else "upper right"
     axes.legend(fontsize=8, frameon=False, loc=corner)
 

@@ -57,6 +57,13 @@ def print_growth(rows: Sequence[Mapping[str, Any]]) -> None:
         print(f"{row['speed']:8.2f}{pairs}{row['maximum_y'] * 1e3:10.3f}{event}")
 
 
+def print_modes(modes: Sequence[Sequence[Any]]) -> None:
+    """Print name, frequency [Hz] and damping ratio of modes."""
+    print("least damped modes at the linear critical speed:")
+    for name, frequency, damping in modes:
+        print(f"    {name:36} {frequency:6.2f} Hz, damping ratio {damping:+.4f}")
+
+
 def print_geometry(name: str, numbers: Mapping[str, Any]) -> None:
     """Print what `geometry_numbers` and `compare_methods` ("methods") found of a pair."""
     methods, fits = numbers["methods"], numbers["polynomials"]

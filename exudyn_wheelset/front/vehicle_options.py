@@ -17,8 +17,10 @@ import exudyn as exu
 from exudyn_wheelset.catalogue.by_name import CATALOGUE, entry, system_of
 from exudyn_wheelset.catalogue.by_name import vehicle as vehicle_of_name
 from exudyn_wheelset.catalogue.changes import Changes
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.script import add_profile_options, script_profile
 from exudyn_wheelset.systems.system import DynamicSystem
+from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.files import load_vehicle
 
 # Options that change a vehicle, as `Changes` calls them.
@@ -79,6 +81,18 @@ class ChosenVehicle:
     def system(self, settings: exu.SimulationSettings | None = None) -> DynamicSystem:
         """The vehicle as a system for all analyses; settings of Exudyn's solver."""
         return system_of(self.vehicle(), settings)
+
+    def description(self) -> Vehicle:
+        """The vehicle as a description of bodies, wheelsets and connections.
+
+        Raises WheelsetError for a vehicle of the catalogue that is equations alone.
+        """
+        found = self.vehicle()
+        if isinstance(found, Vehicle):
+            return found
+        if not hasattr(found, "vehicle"):
+            raise WheelsetError(f"{self.word} is equations alone: it has no bodies on rails")
+        return found.vehicle()
 
     def stem(self, script: str) -> str:
         """Name of a file of this vehicle's results: script, vehicle and what is changed of it."""

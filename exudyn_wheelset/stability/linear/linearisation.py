@@ -72,6 +72,28 @@ class Linearisation:
         return int(rows[0]) if len(rows) else None
 
     @property
+    def hunting_damping(self) -> float | None:
+        """Damping ratio -Re/abs of the least damped hunting mode; None if none hunts."""
+        row = self.hunting_row
+        if row is None:
+            return None
+        root = self.eigenvalues[row]
+        return float(-root.real / abs(root))
+
+    def oscillations(
+        self, lowest: float = 0.05, highest: float = 15.0
+    ) -> list[tuple[str, complex]]:
+        """Name and root [1/s] of the modes between two frequencies [Hz], least damped first."""
+        frequencies = self.eigenvalues.imag / (2.0 * np.pi)
+        return [
+            (name, complex(root))
+            for name, root, frequency in zip(
+                self.mode_names, self.eigenvalues, frequencies, strict=True
+            )
+            if lowest < frequency < highest
+        ]
+
+    @property
     def mode_names(self) -> tuple[str, ...]:
         """Name of each mode (n) by what moves in it."""
         frequencies = np.abs(self.eigenvalues.imag) / (2.0 * np.pi)
