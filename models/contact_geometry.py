@@ -125,8 +125,7 @@ def pairs_from(arguments: argparse.Namespace, parser: argparse.ArgumentParser) -
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0], settings=False)
-    nothing = dict.fromkeys(("wheel", "rail", "gauge", "gauge_depth", "inclination"))
-    add_profile_options(parser, **nothing)
+    add_profile_options(parser, defaults=False)
     add = parser.add_argument
     add("--radius", type=float, default=0.46, help="at the tape circle [m]")
     add("--tape-half-distance", type=float, default=0.75, help="centre to tape circle [m]")

@@ -28,15 +28,13 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset import catalogue
+from exudyn_wheelset import Motion, catalogue, linear_critical_speed, linearise, simulate
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
-from exudyn_wheelset.results.motion import Motion
-from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
-from exudyn_wheelset.stability.linear.linearisation import linearise
-from exudyn_wheelset.systems.simulation import simulate
+from exudyn_wheelset.front.tables import print_modes
+from exudyn_wheelset.front.vehicle_options import add_change_options, chosen_changes
 from exudyn_wheelset.vehicles.statics import static_equilibrium
 
 FRICTIONS = (0.0, 0.1, 0.2, 0.4, 0.6)
@@ -63,9 +61,8 @@ def run(
         numbers["wheel_loads"][load] = {n: list(pair) for n, pair in rest.wheel_loads.items()}
         stuck = linearise(car, MODES_AT)
         numbers["modes"][load] = [
-            [name, float(root.imag / (2.0 * np.pi)), float(-root.real / abs(root))]
-            for name, root in zip(stuck.mode_names, stuck.eigenvalues, strict=True)
-            if 0.05 < root.imag / (2.0 * np.pi) < 15.0
+            [name, root.imag / (2.0 * np.pi), -root.real / abs(root)]
+            for name, root in stuck.oscillations()
         ]
         numbers["neutral"][load] = sum(name.startswith("neutral") for name in stuck.mode_names)
         found = {mu: _critical(mu, **options) for mu in sorted({*FRICTIONS, wedge_friction})}
@@ -114,23 +111,19 @@ def _keep(out: Path, numbers: dict[str, Any], motions: dict[str, Motion]) -> lis
     wedge.set(xlabel="bolster against side frame [mm]", ylabel="friction over slip force [-]")
     for axes in (over, hunting, wedge):
         axes.legend(fontsize=8, frameon=False)
-    files.append(write_figure(out / "freight_car.png", figure))
     records = {load: motion.record for load, motion in motions.items()}
-    return [
-        str(path) for path in [*files, write_json(out / "freight_car.json", numbers, **records)]
-    ]
+    files.append(write_figure(out / "freight_car.png", figure))
+    files.append(write_json(out / "freight_car.json", numbers, **records))
+    return [str(path) for path in files]
 
 
 def _show(numbers: dict[str, Any]) -> None:
     for load in HUNTS:
         left, right = numbers["wheel_loads"][load]["front leading"]
-        print(f"{load}: {left / 1e3:.2f}, {right / 1e3:.2f} kN on the leading wheels; when stuck:")
-        for name, frequency, damping in numbers["modes"][load][:6]:
-            print(f"    {name:36} {frequency:6.2f} Hz, damping ratio {damping:+.4f}")
-        for friction, speed in numbers["critical"][load].items():
-            print(
-                f"    wedge friction {friction:5}: linear critical speed {speed or np.nan:.2f} m/s"
-            )
+        print(f"{load}: {left / 1e3:.2f}, {right / 1e3:.2f} kN on the leading wheels")
+        print_modes(numbers["modes"][load][:6], f"of the stuck car at {MODES_AT:g} m/s")
+        for mu, speed in numbers["critical"][load].items():
+            print(f"    wedge friction {mu:5}: linear critical speed {speed or np.nan:.2f} m/s")
         hunt = numbers["hunt"][load]
         first, last = hunt["amplitude_mm"]
         print(f"    at {hunt['speed']:.2f} m/s: {first:.2f} mm at first, {last:.2f} mm in the end")
@@ -138,19 +131,15 @@ def _show(numbers: dict[str, Any]) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
-    names = ("wedge_friction", "friction", "creep")
-    given = {
-        name: getattr(arguments, name) for name in names if getattr(arguments, name) is not None
-    }
+    changes = {"wedge_friction": arguments.wedge_friction, **chosen_changes(arguments)}
     out = None if arguments.json else arguments.out
-    return run(out=out, progress=not arguments.json, **given)
+    return run(out=out, progress=not arguments.json, **changes)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser("A freight car on three-piece trucks.", settings=False)
+    add_change_options(parser)
     parser.add_argument("--wedge-friction", type=float, default=0.4, help="friction of the wedges")
-    parser.add_argument("--friction", type=float, help="friction of wheel and rail")
-    parser.add_argument("--creep", help="creep law")
     return run_script(_run, parser, argv, _show)
 
 

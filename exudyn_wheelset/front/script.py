@@ -109,11 +109,15 @@ def add_profile_options(
     gauge: float | None = 1.435,
     gauge_depth: float | None = 0.014,
     inclination: float | None = 1.0 / 40.0,
+    defaults: bool = True,
 ) -> None:
     """Add --wheel, --rail, --gauge, --gauge-depth, --inclination and --smoothing to a script.
 
-    The arguments are the options' defaults; None where the script itself knows what to take.
+    The arguments are the options' defaults; None, or defaults=False for all of them, where the
+    script itself knows what to take.
     """
+    if not defaults:
+        wheel = rail = gauge = gauge_depth = inclination = None
     group = parser.add_argument_group("profiles and track")
     group.add_argument("--wheel", default=wheel, help="wheel profile, name or file")
     group.add_argument("--rail", default=rail, help="rail profile, name or file")

@@ -57,9 +57,11 @@ def print_growth(rows: Sequence[Mapping[str, Any]]) -> None:
         print(f"{row['speed']:8.2f}{pairs}{row['maximum_y'] * 1e3:10.3f}{event}")
 
 
-def print_modes(modes: Sequence[Sequence[Any]]) -> None:
+def print_modes(
+    modes: Sequence[Sequence[Any]], where: str = "at the linear critical speed"
+) -> None:
     """Print name, frequency [Hz] and damping ratio of modes."""
-    print("least damped modes at the linear critical speed:")
+    print(f"least damped modes {where}:")
     for name, frequency, damping in modes:
         print(f"    {name:36} {frequency:6.2f} Hz, damping ratio {damping:+.4f}")
 

@@ -108,32 +108,41 @@ class ChosenVehicle:
 
 
 def add_vehicle_options(parser: argparse.ArgumentParser, default: str) -> None:
-    """Add --vehicle and what may be changed of one: contact, profiles and track."""
+    """Add --vehicle and what may be changed of one."""
     parser.add_argument(
         "--vehicle",
         default=default,
         help=f"a file ({FILE_SUFFIX}) or one of {', '.join(CATALOGUE)}",
     )
+    add_change_options(parser)
+
+
+def add_change_options(parser: argparse.ArgumentParser) -> None:
+    """Add what may be changed of a vehicle: contact, profiles and track."""
     parser.add_argument("--friction", type=float, help="coefficient of friction")
     parser.add_argument("--creep", help="creep law")
     parser.add_argument("--conicity", type=float, help="taper of the tread of an AAR wheel")
     parser.add_argument("--damping", type=float, help="damping of the normal contact [s/m]")
-    add_profile_options(
-        parser, wheel=None, rail=None, gauge=None, gauge_depth=None, inclination=None
-    )
+    add_profile_options(parser, defaults=False)
 
 
-def chosen_vehicle(arguments: argparse.Namespace) -> ChosenVehicle:
-    """The vehicle of the options that `add_vehicle_options` has added.
+def chosen_changes(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The changes of the options that `add_change_options` has added, for `catalogue.Changes`.
 
     Raises ProfileError for a profile that cannot be read.
     """
-    options = {name: getattr(arguments, name) for name in CHANGES}
-    options = {name: value for name, value in options.items() if value is not None}
-    changes = dict(options)
+    changes = {name: getattr(arguments, name) for name in CHANGES}
+    changes = {name: value for name, value in changes.items() if value is not None}
     for kind in ("wheel", "rail"):
         if kind in changes:
             changes[kind] = script_profile(changes[kind], kind, arguments.smoothing)
+    return changes
+
+
+def chosen_vehicle(arguments: argparse.Namespace) -> ChosenVehicle:
+    """The vehicle of the options that `add_vehicle_options` has added; errors as chosen_changes."""
+    changes = chosen_changes(arguments)
+    options = {name: getattr(arguments, name) for name in changes}
     if arguments.smoothing and not {"wheel", "rail"}.isdisjoint(options):
         options["smoothing"] = arguments.smoothing
     return ChosenVehicle(arguments.vehicle, changes, options)
