@@ -259,7 +259,7 @@ def add_vehicle(
     nodes = [items.node for items in parts]
     if show:
         names = [part.name for part in vehicle.parts]
-        add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)))
+        add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)), name)
     drawbar = _pull(mbs, rest, vehicle, travelling, parts, name)
     if travelling.is_curved:
         solids: list[Any] = [getattr(part, "wheelset", part) for part in vehicle.parts]

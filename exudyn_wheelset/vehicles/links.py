@@ -48,8 +48,13 @@ def links_of(vehicle: Vehicle) -> list[Link]:
     return found
 
 
-def add_links(mbs: Any, vehicle: Vehicle, nodes: Mapping[str, int]) -> int | None:
-    """Add what draws the connections to `mbs`; nodes by part; its object, None for none."""
+def add_links(
+    mbs: Any, vehicle: Vehicle, nodes: Mapping[str, int], name: str | None = None
+) -> int | None:
+    """Add what draws the connections to `mbs`; nodes by part; its object, None for none.
+
+    name: of the vehicle in this system, its own if left out.
+    """
     links = links_of(vehicle)
     if not links:
         return None
@@ -76,7 +81,9 @@ def add_links(mbs: Any, vehicle: Vehicle, nodes: Mapping[str, int]) -> int | Non
 
     function: Any = drawn
     visual = VObjectGround(graphicsDataUserFunction=function)
-    return int(mbs.AddObject(ObjectGround(name=f"{vehicle.name} links", visualization=visual)))
+    return int(
+        mbs.AddObject(ObjectGround(name=f"{name or vehicle.name} links", visualization=visual))
+    )
 
 
 def _without_spin(axes: Array) -> Array:
