@@ -16,10 +16,8 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 from exudyn.utilities import (
-    LoadForceVector,
     MarkerBodyRigid,
     NodeGenericODE1,
-    ObjectConnectorCartesianSpringDamper,
     ObjectGenericODE1,
     ObjectGenericODE2,
     RigidBodyInertia,
@@ -38,15 +36,14 @@ from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.description import Vehicle
+from exudyn_wheelset.vehicles.drawbar import Drawbar, add_drawbar
 from exudyn_wheelset.vehicles.elements.protocol import End
 from exudyn_wheelset.vehicles.links import add_links
-from exudyn_wheelset.vehicles.rest import Rest, find_rest, heaviest_part, rolls_freely
+from exudyn_wheelset.vehicles.rest import Rest, find_rest
 from exudyn_wheelset.vehicles.shapes import body_graphics
 from exudyn_wheelset.vehicles.spin_drive import create_spin_drive
 from exudyn_wheelset.vehicles.struts import block_of, strokes_at
 
-# Angular frequency [rad/s] of a vehicle on its drawbar, critically damped: slow beside all else.
-_DRAWBAR = 0.5
 _CURRENT = exu.ConfigurationType.Current
 
 
@@ -136,19 +133,6 @@ class BodyItems:
 
     node: int
     body: int
-
-
-@dataclass(frozen=True)
-class Drawbar:
-    """What keeps a vehicle at its speed that is driven, braked or on a track that is not plain.
-
-    part: number of the pulled part; pull [N]; stiffness [N/m] and damping [N s/m] along the track.
-    """
-
-    part: int
-    pull: float
-    stiffness: float
-    damping: float
 
 
 @dataclass(frozen=True)
@@ -261,6 +245,8 @@ def add_vehicle(
         names = [part.name for part in vehicle.parts]
         add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)), name)
     drawbar = _pull(mbs, rest, vehicle, travelling, parts, name)
+        add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)))
+    drawbar = add_drawbar(mbs, rest, vehicle, travelling, parts, name)
     if travelling.is_curved:
         solids: list[Any] = [getattr(part, "wheelset", part) for part in vehicle.parts]
         masses = [(node, one.mass, one.inertia) for node, one in zip(nodes, solids, strict=True)]
@@ -340,41 +326,6 @@ def _compiled_items(
     )
     connectors.attach_states(int(number_of_object))
     return connectors, int(connector), int(number_of_object)
-
-
-def _pull(
-    mbs: Any, rest: Rest, vehicle: Vehicle, frame: TrackFrame, parts: list[Any], name: str
-) -> Drawbar | None:
-    """Let a vehicle keep its speed whose wheels drive or brake, or whose track is not plain.
-
-    Beside the pull a soft drawbar to what moves along: the pull at another speed differs a little,
-    and curves, gradients and rough rails resist.
-    """
-    if rest.pull == 0.0 and (frame.is_plain or not rolls_freely(rest.struts, len(rest.centres))):
-        return None
-    part = heaviest_part(vehicle)
-    bar = Drawbar(part, rest.pull, vehicle.mass * _DRAWBAR**2, 2.0 * vehicle.mass * _DRAWBAR)
-    items = parts[part]
-    marker = mbs.AddMarker(MarkerBodyRigid(name=f"{name} pulled", bodyNumber=items.body))
-    ahead = mbs.AddMarker(
-        MarkerBodyRigid(
-            name=f"{name} drawbar",
-            bodyNumber=mbs.CreateGround(),
-            localPosition=_reference(mbs, items.node).tolist(),
-        )
-    )
-    mbs.AddObject(
-        ObjectConnectorCartesianSpringDamper(
-            name=f"{name} drawbar",
-            markerNumbers=[ahead, marker],
-            stiffness=[bar.stiffness, 0.0, 0.0],
-            damping=[bar.damping, 0.0, 0.0],
-        )
-    )
-    mbs.AddLoad(
-        LoadForceVector(name=f"{name} pull", markerNumber=marker, loadVector=[bar.pull, 0.0, 0.0])
-    )
-    return bar
 
 
 def _own_items(mbs: Any, rest: Rest, parts: list[Any], shift: Array, axles: int) -> dict[str, Any]:
