@@ -19,7 +19,8 @@ def test_a_coach_comes_through_the_curve_on_its_leading_outer_flange(curve):
     numbers, out = curve
     assert "planned end" in numbers["outcome"]
     for truck in ("front", "rear"):
-        leading, trailing = (numbers["steady"][f"{truck} {name}"] for name in ("leading", "trailing"))
+        leading = numbers["steady"][f"{truck} leading"]
+        trailing = numbers["steady"][f"{truck} trailing"]
         assert leading["y_mm"] < -5.0 and abs(trailing["y_mm"]) < 4.0
         assert leading["angle_of_attack_mrad"] < -5.0
     # Steady curve and the end of the simulated one.

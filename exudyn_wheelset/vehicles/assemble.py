@@ -244,8 +244,6 @@ def add_vehicle(
     if show:
         names = [part.name for part in vehicle.parts]
         add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)), name)
-    drawbar = _pull(mbs, rest, vehicle, travelling, parts, name)
-        add_links(mbs, vehicle, dict(zip(names, nodes, strict=True)))
     drawbar = add_drawbar(mbs, rest, vehicle, travelling, parts, name)
     if travelling.is_curved:
         solids: list[Any] = [getattr(part, "wheelset", part) for part in vehicle.parts]
