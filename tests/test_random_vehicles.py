@@ -2,7 +2,9 @@
 
 Masses, inertias, stiffnesses and places within what vehicles have; laws, profiles, gauges, driven
 axles and a body beside the middle at random. Each goes through equilibrium, linear critical speed
-and a second of motion.
+and a second of motion. The first 300 seeds have been run so (140 s): 260 end with a motion, the
+others with an error of the package. The seeds kept here are those that once failed and some that
+did not.
 """
 
 from __future__ import annotations
@@ -24,6 +26,7 @@ from exudyn_wheelset import (
     linear_critical_speed,
     static_equilibrium,
 )
+from exudyn_wheelset.catalogue.by_name import vehicle as by_name
 from exudyn_wheelset.systems.system import SimulationError
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 
@@ -69,15 +72,20 @@ def random_vehicle(seed: int) -> Vehicle:
     return made.finish()
 
 
+# Roots faster than the usual step holds (25, 30, 136, 156); places of rest that Newton's method
+# reaches in short steps only (186, 198) or not at all (12, 233); no play between the flanges (7,
+# 21); a driven axle (170); a wheel that would have to pull (the first static error).
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", [0, 1, 2, 5, 7, 12, 21, 25, 30, 136, 156, 170, 186, 198, 233])
 def test_a_result_or_an_error_of_ours(seed):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
         try:
             vehicle = random_vehicle(seed)
             rest = static_equilibrium(vehicle)
             assert np.isfinite(rest.residual)
+            said = any("no place of rest" in str(one.message) for one in told)
+            assert said is (rest.residual > 1e-3)
             system = vehicle_system(vehicle)
             try:
                 assert np.isfinite(linear_critical_speed(system, 10.0, 120.0).speed)
@@ -92,3 +100,29 @@ def test_a_result_or_an_error_of_ours(seed):
             assert np.all(np.isfinite(error.states))
         except WheelsetError as error:
             assert len(str(error)) > 30
+
+
+@pytest.mark.parametrize("seed", [136, 156])
+def test_fast_roots_do_not_run_away(seed):
+    """Light wheelsets on stiff dampers: roots of 7500 and 31000 1/s, steps of 0.5 and 0.1 ms."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        system = vehicle_system(random_vehicle(seed))
+        state = system.equilibrium(20.0)
+        motion = system.simulate(state, 20.0, np.linspace(0.0, 0.1, 11))
+    np.testing.assert_allclose(motion / system.scales, state / system.scales + 0 * motion, atol=0.1)
+
+
+def catalogue_system(name, **options):
+    return by_name(name).dynamic_system(**options)
+
+
+@pytest.mark.parametrize("speed", [5.0, 10.0])
+def test_slow_motion_of_a_truck_is_that_of_shorter_steps(speed):
+    """At 5 m/s creep damps with 18000 1/s: RK44 at 0.5 ms would slide in place of roll."""
+    coarse, fine = (catalogue_system("truck", step=step) for step in (None, 2e-5))
+    state = coarse.equilibrium(speed)
+    state[list(coarse.lateral_indices)] += 1e-3
+    times = np.linspace(0.0, 0.5, 26)
+    apart = coarse.simulate(state, speed, times) - fine.simulate(state, speed, times)
+    assert np.abs(apart / coarse.scales)[:, list(coarse.displacement_indices)].max() < 2e-3

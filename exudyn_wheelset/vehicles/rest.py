@@ -22,7 +22,7 @@ from exudyn_wheelset.vehicles.description import Axle, Vehicle
 from exudyn_wheelset.vehicles.rail_support import AxleRest, RailWrench, rest_on_rails
 from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
 
-_NEWTON_STEPS = 60
+_NEWTON_STEPS = 120
 # Accelerations [m/s^2, rad/s^2] that are rounding.
 _AT_REST = 1.0e-7
 
@@ -219,8 +219,13 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
         step = -np.linalg.lstsq(slope, residual, rcond=1e-12)[0]
         # A wheel lifts off or digs in where a step leaves the thin layer of its penetration.
         wheels = np.abs(step[:-1].reshape(-1, 6)[:spins, [2, 3]]).max(initial=0.0)
-        unknown = unknown + step * min(1.0, 5e-5 / wheels if wheels > 0.0 else 1.0)
-        residual = left(unknown)
+        step *= min(1.0, 5e-5 / wheels if wheels > 0.0 else 1.0)
+        size = np.linalg.norm(residual)
+        for factor in 0.5 ** np.arange(8):
+            residual = left(unknown + factor * step)
+            if np.linalg.norm(residual) < size:
+                break
+        unknown = unknown + factor * step
         if np.abs(step).max() < 1e-14 or np.abs(residual).max() < _AT_REST:
             break
     if not np.abs(residual).max() < 1e-5:

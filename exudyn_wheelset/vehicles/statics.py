@@ -7,6 +7,7 @@ for their offset, and the place of all bodies is found (rest.py).
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -15,9 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.errors import WheelsetWarning
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.rest import accelerations, find_rest
+
+# Acceleration [m/s^2, rad/s^2] from which a vehicle does not stand.
+NOT_AT_REST = 1.0e-3
 
 
 class WheelLoads(NamedTuple):
@@ -53,10 +58,22 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     """How the vehicle stands: wheel loads, preloads, places of all parts.
 
     Raises WheelsetError for a vehicle that cannot stand, with the body, the direction and the
-    newtons, and ContactError for a wheelset that its rails do not carry.
+    newtons, and ContactError for a wheelset that its rails do not carry. A vehicle that does not
+    come to rest (flanges that rest on rails without play, wheelsets that steer away) is told of by
+    a WheelsetWarning.
     """
     rest = find_rest(vehicle)
     parts = vehicle.parts
+    left = np.abs(accelerations(vehicle, rest))
+    if left.max() > NOT_AT_REST:
+        worst = parts[int(np.argmax(left.max(axis=1)))].name
+        warnings.warn(
+            f"{vehicle.name}: {worst!r} is left with {left.max():.3g} m/s^2 (or rad/s^2) where it "
+            f"is drawn (limit {NOT_AT_REST:g}), and no place of rest was found nearby: check the "
+            "play of the flanges (gauge, tape_half_distance) and bodies beside the middle",
+            WheelsetWarning,
+            stacklevel=2,
+        )
     preloads: dict[str, Array] = {}
     moved = (rest.pose - rest.drawn).ravel()
     for strut, drawn in zip(rest.struts, rest.preloads, strict=True):
@@ -74,7 +91,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
                 for axle, at_rest in zip(vehicle.wheelsets, rest.axles, strict=True)
             }
         ),
-        residual=float(np.abs(accelerations(vehicle, rest)).max()),
+        residual=float(left.max()),
         preloads=frozen({name: tuple(map(float, value)) for name, value in preloads.items()}),
         positions=frozen({part.name: _three(p) for part, p in zip(parts, places, strict=True)}),
         rotations=frozen(
