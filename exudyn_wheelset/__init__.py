@@ -93,6 +93,7 @@ _PLACES = {
     "save_profile": "profiles",
     "save_vehicle": "vehicles.files",
     "simulate": "systems.simulation",
+    "stability_map": "stability.maps.stability_map",
     "Study": "studies",
     "study": "studies",
     "SteadyCurve": "systems.steady_curve",

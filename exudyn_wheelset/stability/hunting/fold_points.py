@@ -9,6 +9,7 @@ square of the root's error: V_fold = V - h^2/(2 h'). Corners of f have a mesh po
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -61,10 +62,22 @@ class Slope:
         return self.equations.size(self.orbit)
 
 
-def prepared(system: DynamicSystem, orbit: Orbit, intervals: int | None = None) -> Orbit:
+def prepared(
+    system: DynamicSystem,
+    orbit: Orbit,
+    intervals: int | None = None,
+    others: Sequence[DynamicSystem] = (),
+) -> Orbit:
     """An orbit of a diagram, as its own mirror image where it is one, on a balanced mesh, begun
-    away from the corners of f."""
+    away from the corners of f.
+
+    others: systems that have to be symmetric too for that.
+    """
     mirror = mirror_of_orbit(system, orbit)
+    for other in others:
+        signs = mirror_of_orbit(other, orbit)
+        if mirror is None or signs is None or not np.array_equal(signs, mirror):
+            mirror = None
     whole = orbit.whole()
     part = whole if mirror is None else whole.halved(mirror)
     equations = Collocation(system, part.period, 1.0, mirror)

@@ -1,0 +1,1 @@
+"""Maps of stability: curves in two parameters, and the probability of hunting."""

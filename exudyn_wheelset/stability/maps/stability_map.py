@@ -1,0 +1,401 @@
+"""Stability map: Hopf and fold curves of a vehicle over speed and one of its numbers.
+
+    map = stability_map("cooperrider", "speed", "conicity", (0.02, 0.2))
+    map.hopf[0].speed, map.folds[0].speed, map.regions.at(66.0, 0.05)
+
+At a few values of the number a whole diagram is made (Hopf points, the branch of limit cycles from
+the first of them, its folds). Each of its Hopf points and folds that lies on no curve yet begins
+one, which is followed both ways to the ends of the range, through cusps and into Bautin points. A
+fold curve that begins and ends between those values without passing one is not found: give more
+`starts`.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from tqdm import tqdm
+
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.results.columns import NamedColumns
+from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.stability.hunting.branch import Fold
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
+from exudyn_wheelset.stability.hunting.fold_points import fold_near, prepared
+from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.watching import watched_index
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
+from exudyn_wheelset.stability.linear.modes import is_lateral
+from exudyn_wheelset.stability.maps.curves import Curve, Regions, regions_of
+from exudyn_wheelset.stability.maps.fold_curves import BAUTIN, FoldPlace, FoldWorld
+from exudyn_wheelset.stability.maps.hopf_curves import HopfPlace, HopfWorld
+from exudyn_wheelset.stability.maps.tracing import Family, Tracer
+from exudyn_wheelset.stability.numbers import unit_of
+from exudyn_wheelset.stability.subject import as_system, changed, description_of
+from exudyn_wheelset.systems.system import Array, DynamicSystem
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Speeds looked at by default, in Hopf speeds.
+RANGE = (0.4, 1.3)
+# A fold or Hopf point lies on a curve if it is this near to it, relative to its speed; folds of
+# S1002 wheelsets come as near as 1e-3 to each other, but at other amplitudes.
+SAME_SPEED, SAME_AMPLITUDE = 2e-3, 0.05
+
+
+@brief
+@dataclass(frozen=True, eq=False)
+class StabilityMap:
+    """Curves in speed and a number of the vehicle.
+
+    parameter   name of the number; limits: its range; unit as text
+    hopf        curves of Hopf points
+    folds       curves of folds of limit cycles
+    speeds      range of speeds [m/s]
+    remarks     what could not be followed, and why
+    record      system, versions, settings, cost
+    """
+
+    parameter: str
+    unit: str
+    limits: tuple[float, float]
+    speeds: tuple[float, float]
+    hopf: list[Curve]
+    folds: list[Curve]
+    remarks: tuple[str, ...] = ()
+    record: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def regions(self) -> Regions:
+        """Where the vehicle always runs straight, hunts if disturbed, and hunts."""
+        return regions_of(self.hopf, self.folds, self.limits, self.speeds)
+
+    @property
+    def bautin_points(self) -> list[tuple[float, float]]:
+        """(speed [m/s], parameter) at which Hopf points turn from sub- to supercritical: where the
+        squared amplitude of a fold, extrapolated from its last points, is zero."""
+        found = []
+        for curve in self.folds:
+            for end, rows in zip(curve.ends, ([0, 1], [-1, -2]), strict=True):
+                if end == BAUTIN:
+                    last, before = curve.amplitude[rows] ** 2
+                    share = last / (before - last)
+                    values = (curve.speed[rows], curve.parameter[rows])
+                    speed, parameter = (float(v[0] + share * (v[0] - v[1])) for v in values)
+                    found.append((speed, parameter))
+        return found
+
+    def to_xarray(self) -> Any:
+        """All points of all curves as an xarray Dataset over `point`, with kind and number of the
+        curve beside each."""
+        import xarray
+
+        curves = [*self.hopf, *self.folds]
+        columns: dict[str, Any] = {
+            name: np.concatenate([getattr(curve, name) for curve in curves])
+            for name in ("speed", "parameter", "frequency", "amplitude", "loses")
+        }
+        columns["kind"] = np.concatenate([np.full(len(c), c.kind) for c in curves])
+        columns["curve"] = np.concatenate([np.full(len(c), k) for k, c in enumerate(curves)])
+        data = xarray.Dataset({name: (("point",), values) for name, values in columns.items()})
+        data["speed"].attrs["units"] = "m/s"
+        data["parameter"].attrs.update(units=self.unit, long_name=self.parameter)
+        data["frequency"].attrs["units"] = "Hz"
+        data.attrs.update({name: str(value) for name, value in self.record.items()})
+        return data
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw speed over the parameter: regions shaded, Hopf curves solid, fold curves dashed
+        (dotted where cycles are unstable on both sides), cusps and Bautin points marked."""
+        if ax is None:
+            import matplotlib.pyplot as plt
+
+            ax = plt.subplots()[1]
+        for (name, polygon), colour in zip(
+            self.regions.items(), ("#e8f4e8", "#fff3d6", "#fbe3e1"), strict=True
+        ):
+            ax.fill(*polygon.T, color=colour, zorder=0, label=name)
+        for number, curve in enumerate(self.hopf):
+            label = "Hopf points" if number == 0 else None
+            ax.plot(curve.parameter, curve.speed, "-", color="C3", label=label)
+        for number, curve in enumerate(self.folds):
+            label = "folds of limit cycles" if number == 0 else None
+            style = "--" if curve.loses.any() else ":"
+            ax.plot(curve.parameter, curve.speed, style, color="C0", label=label)
+            rows = curve.cusps
+            ax.plot(curve.parameter[rows], curve.speed[rows], "v", color="C0", ms=5)
+        for speed, parameter in self.bautin_points:
+            ax.plot(parameter, speed, "D", color="k", ms=5)
+        ax.set_xlim(*self.limits)
+        shown = np.concatenate([curve.speed for curve in [*self.hopf, *self.folds]])
+        margin = 0.1 * float(np.ptp(shown)) + 0.01 * float(shown.max())
+        ax.set_ylim(shown.min() - margin, shown.max() + margin)
+        unit = "" if self.unit in ("", "-") else f" [{self.unit}]"
+        ax.set_xlabel(f"{self.parameter.replace('_', ' ')}{unit}")
+        ax.set_ylabel("forward speed [m/s]")
+        ax.legend(fontsize=8)
+        return ax
+
+
+def stability_map(
+    vehicle: Any,
+    first: str,
+    parameter: str,
+    limits: tuple[float, float],
+    *,
+    speeds: tuple[float, float] | None = None,
+    points: int = 40,
+    starts: int = 3,
+    most: int = 400,
+    folds: bool = True,
+    intervals: int | None = None,
+    settings: ContinuationSettings | None = None,
+    progress: bool = False,
+) -> StabilityMap:
+    """Hopf and fold curves of a vehicle over speed and a number of it, within `limits`.
+
+    vehicle    a description, a name of the catalogue, or a function of the parameter's value that
+               gives a vehicle or a system
+    first      "speed"
+    parameter  path of `Vehicle.replace`, name of a number, or a short one: friction, gauge,
+               conicity, inclination, shear_modulus
+    speeds     range [m/s]; default 0.4 times the lowest to 1.3 times the highest first Hopf point
+    points     of a curve over the range, at least; most: of a curve that turns to and fro
+    starts     values of the parameter at which diagrams are made
+    folds      False leaves limit cycles out
+    intervals  of the orbits' mesh; default that of the diagrams, 90 on elastic contact
+    settings   of the diagrams
+
+    Raises AnalysisError where there is no Hopf point at any of the starts.
+    """
+    if first != "speed":
+        raise AnalysisError(f"{first!r}: the first parameter of a map is 'speed'")
+    low, high = map(float, limits)
+    if not low < high or points < 2 or starts < 1:
+        raise AnalysisError(
+            f"limits = ({low:g}, {high:g}), points = {points}, starts = {starts}: give (low, high) "
+            "with low below high, at least two points and one start"
+        )
+    begun = time.perf_counter()
+    made = _Maker(vehicle, parameter, (low, high), progress)
+    values = [0.5 * (low + high)] if starts == 1 else np.linspace(low, high, starts).tolist()
+    with tqdm(disable=not progress, unit="point", desc="stability map") as bar:
+        found = made.hopf_starts(values, speeds)
+        hopf = made.hopf_curves(found, points, most, bar)
+        remarks = made.remarks
+        fold_curves: list[Curve] = []
+        if folds:
+            fold_curves = made.fold_curves(found, points, most, intervals, settings, bar)
+    record = describe(
+        made.family(values[len(values) // 2]),
+        "stability map",
+        {"parameter": parameter, "limits": [low, high], "points": points, "starts": values},
+    )
+    record["cost"] = {"seconds": time.perf_counter() - begun}
+    return StabilityMap(
+        parameter,
+        unit_of(parameter),
+        (low, high),
+        made.speeds,
+        hopf,
+        fold_curves,
+        tuple(remarks),
+        record,
+    )
+
+
+class _Maker:
+    def __init__(
+        self, vehicle: Any, parameter: str, limits: tuple[float, float], progress: bool
+    ) -> None:
+        function = callable(vehicle) and not hasattr(vehicle, "dynamic_system")
+        description = vehicle if function else description_of(vehicle)
+        self.family = Family(lambda value: as_system(changed(description, parameter, value)))
+        self.limits = limits
+        self.remarks: list[str] = []
+        self.speeds = (0.0, np.inf)
+
+    def hopf_starts(
+        self, values: list[float], speeds: tuple[float, float] | None
+    ) -> list[tuple[float, list[CriticalPoint]]]:
+        """Hopf points of lateral modes at each start."""
+        from exudyn_wheelset.stability.hunting.nonlinear import SEARCH
+
+        found = []
+        for value in values:
+            system = self.family(value)
+            points: list[CriticalPoint] = []
+            for range_ in SEARCH if speeds is None else (speeds,):
+                try:
+                    points = [p for p in hopf_points(system, *range_) if self._lateral(value, p)]
+                except WheelsetError as error:
+                    self.remarks.append(f"{value:g}: {error}")
+                if any(point.direction == "loses stability" for point in points):
+                    break
+            if points:
+                found.append((value, points))
+            else:
+                self.remarks.append(f"no Hopf point at {value:g}")
+        if not found:
+            raise AnalysisError(f"no Hopf point at any start: {'; '.join(self.remarks)}")
+        if speeds is None:
+            lowest = [min(points).speed for _, points in found]
+            speeds = (RANGE[0] * min(lowest), RANGE[1] * max(lowest))
+            # Other pairs that cross in the range as well.
+            found = [
+                (
+                    value,
+                    [
+                        p
+                        for p in hopf_points(self.family(value), *speeds)
+                        if self._lateral(value, p)
+                    ],
+                )
+                for value, _ in found
+            ]
+        self.speeds = float(speeds[0]), float(speeds[1])
+        return found
+
+    def _lateral(self, value: float, point: CriticalPoint) -> bool:
+        return is_lateral(self.family(value), point.mode)
+
+    def hopf_curves(
+        self,
+        found: list[tuple[float, list[CriticalPoint]]],
+        points: int,
+        most: int,
+        bar: Any,
+    ) -> list[Curve]:
+        """Curves through all Hopf points."""
+        world = HopfWorld(self.family, self.limits, self.speeds)
+        curves: list[Curve] = []
+        for value, starts in found:
+            for start in starts:
+                if not self.speeds[0] <= start.speed <= self.speeds[1]:
+                    continue
+                if _on_a_curve(curves, value, start.speed):
+                    continue
+                try:
+                    tracer = Tracer(world, world.begin(start, value), 1.0 / points, bar.update)
+                    places, ends = tracer.both_ways(most)
+                except WheelsetError as error:
+                    self.remarks.append(f"Hopf point at {value:g}, {start.speed:.4f} m/s: {error}")
+                    continue
+                curves.append(self._hopf_curve(world, places, ends))
+        return curves
+
+    def _hopf_curve(
+        self, world: HopfWorld, places: list[HopfPlace], ends: tuple[str, str]
+    ) -> Curve:
+        system = self.family(places[0].parameter)
+        names = [system.state_names[index] for index in system.displacement_indices]
+        step = np.array([1e-5, 0.0])
+        loses = np.array([world.reach(p, step).value > p.value for p in places])
+        return Curve(
+            "hopf",
+            np.array([place.speed for place in places]),
+            np.array([place.parameter for place in places]),
+            np.array([place.eigenvalue.imag / (2.0 * np.pi) for place in places]),
+            np.zeros(len(places)),
+            NamedColumns(np.zeros((len(places), len(names))), names),
+            loses,
+            ends,
+        )
+
+    def fold_curves(
+        self,
+        found: list[tuple[float, list[CriticalPoint]]],
+        points: int,
+        most: int,
+        intervals: int | None,
+        settings: ContinuationSettings | None,
+        bar: Any,
+    ) -> list[Curve]:
+        """Curves through the folds of all diagrams."""
+        world = FoldWorld(self.family, self.limits, self.speeds)
+        curves: list[Curve] = []
+        for value, starts in found:
+            system = self.family(value)
+            for fold in self._folds(system, starts, settings):
+                if not self.speeds[0] <= fold.speed <= self.speeds[1] or fold.orbit is None:
+                    continue
+                watched = system.state_names[watched_index(system)]
+                if _on_a_curve(curves, value, fold.speed, fold.amplitude[watched]):
+                    continue
+                try:
+                    orbit = prepared(system, fold.orbit, intervals, self._ends())
+                    point = fold_near(system, orbit, fold.side, 1e-4)
+                    place = FoldPlace(point, value, point.size)
+                    amplitude = point.orbit.half_peak_to_peak()[watched_index(system)]
+                    if _on_a_curve(curves, value, place.speed, float(amplitude)):
+                        continue
+                    tracer = Tracer(world, place, 1.0 / points, bar.update)
+                    places, ends = tracer.both_ways(most)
+                except WheelsetError as error:
+                    self.remarks.append(f"fold at {value:g}, {fold.speed:.4f} m/s: {error}")
+                    continue
+                curves.append(self._fold_curve(places, ends))
+        return curves
+
+    def _ends(self) -> tuple[DynamicSystem, DynamicSystem]:
+        return self.family(self.limits[0]), self.family(self.limits[1])
+
+    def _folds(
+        self,
+        system: DynamicSystem,
+        starts: list[CriticalPoint],
+        settings: ContinuationSettings | None,
+    ) -> list[Fold]:
+        """Folds of the branch from the first Hopf point of one vehicle."""
+        folds: list[Fold] = []
+        for start in [s for s in sorted(starts) if s.direction == "loses stability"][:1]:
+            speeds = (
+                max(self.speeds[0], RANGE[0] * start.speed),
+                min(self.speeds[1], RANGE[1] * start.speed),
+            )
+            if not speeds[0] < start.speed < speeds[1]:
+                continue
+            try:
+                folds += limit_cycles(system, start, speeds, settings=settings).folds
+            except WheelsetError as error:
+                self.remarks.append(f"branch at {start.speed:.4f} m/s: {error}")
+        return folds
+
+    def _fold_curve(self, places: list[FoldPlace], ends: tuple[str, str]) -> Curve:
+        system = self.family(places[0].parameter)
+        indices = list(system.displacement_indices)
+        names = [system.state_names[index] for index in indices]
+        amplitudes = np.array([p.point.orbit.half_peak_to_peak()[indices] for p in places])
+        table = NamedColumns(amplitudes, names)
+        return Curve(
+            "fold",
+            np.array([place.speed for place in places]),
+            np.array([place.parameter for place in places]),
+            np.array([1.0 / place.point.orbit.period for place in places]),
+            amplitudes[:, indices.index(watched_index(system))],
+            table,
+            np.array([place.one_side_stable for place in places]),
+            ends,
+        )
+
+
+def _on_a_curve(
+    curves: list[Curve], parameter: float, speed: float, amplitude: float | None = None
+) -> bool:
+    """Whether a point lies on a curve already."""
+    for curve in curves:
+        for known, row in curve.crossings(parameter):
+            if abs(known - speed) > SAME_SPEED * speed:
+                continue
+            if amplitude is None:
+                return True
+            beside: Array = curve.amplitude[row : row + 2]
+            near = np.abs(beside - amplitude).min() < SAME_AMPLITUDE * amplitude
+            if near or beside.min() <= amplitude <= beside.max():
+                return True
+    return False
