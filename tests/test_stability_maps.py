@@ -99,7 +99,7 @@ def test_what_a_map_refuses():
     [("conicity", (0.02, 0.2), (0.037, 0.15)), ("friction", (0.05, 0.4), (0.09, 0.31))],
 )
 def test_bogie_against_separate_diagrams(parameter, limits, values):
-    found = stability_map("cooperrider", "speed", parameter, limits)
+    found = stability_map("cooperrider", "speed", parameter, limits, starts=1, points=20)
     bogie = description_of("cooperrider")
     for value in values:
         other = changed(bogie, parameter, value)

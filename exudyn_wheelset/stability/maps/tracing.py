@@ -20,6 +20,8 @@ from exudyn_wheelset.systems.system import Array
 
 # Below this share of the heading along w, corrections are made in w.
 ALONG = 0.5
+# Below this share the start of a curve is next to a turn in w.
+CUSP = 0.1
 # Largest turn of the heading in one step [rad].
 TURN = 0.5
 SMALLEST_STEP = 1e-3
@@ -27,7 +29,7 @@ SMALLEST_STEP = 1e-3
 CORNER = 0.03
 # The heading is taken over at least this share of the largest step.
 BASELINE = 0.3
-CORRECTIONS = 10
+CORRECTIONS = 16
 # A prediction is taken as it is if its error, by a slope that is not its own, is below this share.
 UNSURE = 0.02
 
@@ -105,6 +107,9 @@ class Tracer(Generic[P]):
         slopes = _Slopes(self.slopes.u, self.slopes.w)
         heading = np.array([-slopes.w, slopes.u])
         heading *= sign * (np.sign(heading[1]) or 1.0) / max(float(np.linalg.norm(heading)), 1e-300)
+        if abs(heading[1]) > CUSP:
+            # The step shows the way better than differences beside a corner.
+            heading = np.array([0.0, sign])
         places, step = [self.start], 0.5 * self.largest
         while len(places) < most:
             base = places[-1]
@@ -117,7 +122,8 @@ class Tracer(Generic[P]):
                 onward = float(way @ heading)
                 aside = float(np.linalg.norm(way - onward * heading))
                 # At a corner (a flange that sets in) any step turns: small ones go through.
-                if onward <= 0.0 or aside > max(np.tan(TURN) * onward, CORNER):
+                turns = aside > max(np.tan(TURN) * onward, CORNER)
+                if onward <= 0.0 or (turns and len(places) > 1):
                     raise AnalysisError("the curve turns more sharply than a step may")
                 turned = self._heading(places, new, way)
             except WheelsetError as error:
@@ -203,6 +209,9 @@ def _next(known: list[tuple[float, float]], slope: float, step: float) -> float:
     if opposite:
         other, against = min(opposite, key=lambda pair: abs(pair[0] - offset))
         share = float(np.clip(value / (value - against), 0.1, 0.9))
+        # At a jump of the value false position creeps up from one side.
+        if len(known) > 2 and known[-2][1] * value > 0.0:
+            share = 0.5
         change = share * (other - offset)
     return change
 
