@@ -67,48 +67,70 @@ def test_patches_more_slender_than_the_table(ratio):
     assert force.max() < 0.12
 
 
-@pytest.mark.parametrize("ratio", [0.2, 0.5, 1.0, 2.0, 5.0, 10.0])
-def test_slopes(ratio):
-    """Central differences over a tenth of saturation, at spins of none to twice saturation.
-
-    At spins of 0.9 to 1.1 the slope over y halves; there the table is up to 6 % off and not tested.
-    """
+def slopes(law, ratio, spin, step, **cells):
+    """-dF_x/dxi_x and -dF_y/dxi_y over Kalker's at pure spin; spin and step over saturation."""
     a, b = patch(ratio)
     unit_x, unit_y, unit_spin = saturation(a, b, 0.28)
-    spin = np.array([0.0, 0.3, 0.7, 0.85, 1.2, 1.5, 2.0])
-    step = 0.1
-    slopes = []
-    for law in ("exact-table", "exact"):
-        for x, y in ((step * unit_x, 0.0), (0.0, step * unit_y)):
-            ends = [
-                np.array(
-                    creep_force(
-                        law,
-                        sign * x,
-                        sign * y,
-                        spin * unit_spin,
-                        a,
-                        b,
-                        LOAD,
-                        FRICTION,
-                        SHEAR,
-                        0.28,
-                    )
-                )
-                for sign in (1, -1)
-            ]
-            difference = (ends[1] - ends[0]) / (2 * step * LIMIT)
-            slopes.append(difference[0] if x else difference[1])
-    for table, exact in ((slopes[0], slopes[2]), (slopes[1], slopes[3])):
-        # slopes of the exact law jump by a per cent of the linear one as cells turn to slip; on a
-        # wide patch under spin its strips are too few: 0.053, 0.055 on twice as many, table 0.059
+    found = []
+    for x, y in ((step * unit_x, 0.0), (0.0, step * unit_y)):
+        ends = [
+            creep_force(
+                law,
+                sign * x,
+                sign * y,
+                spin * unit_spin,
+                a,
+                b,
+                LOAD,
+                FRICTION,
+                SHEAR,
+                0.28,
+                **cells,
+            )
+            for sign in (1, -1)
+        ]
+        force = 0 if x else 1
+        found.append((ends[1][force] - ends[0][force]) / (2 * step * LIMIT))
+    return found
+
+
+@pytest.mark.parametrize("ratio", [0.14, 0.2, 0.31, 0.5, 0.8, 1.0, 1.3, 2.0, 3.1, 5.0, 7.0])
+def test_slopes(ratio):
+    """Within 3 % to saturation by spin and 6 % beyond, through the knee of the slope over y too.
+
+    Slopes of the exact law jump by a per cent of the linear one as cells turn to slip: 0.006.
+    """
+    spin = np.array([0.0, 0.3, 0.7, 0.85, 0.93, 1.0, 1.08, 1.2, 1.5, 2.0])
+    pairs = zip(
+        slopes("exact-table", ratio, spin, 0.1), slopes("exact", ratio, spin, 0.1), strict=True
+    )
+    for table, exact in pairs:
         allowed = np.where(spin <= 1.0, 0.03, 0.06) * exact + 0.006
         assert np.all(np.abs(table - exact) < allowed)
 
 
+def test_slope_of_wide_patches_under_large_spin():
+    """Strips of cells resolve it to first order: on n of them the slope is off by some 5/n.
+
+    At a/b = 0.1 and twice saturation it is extrapolated from 40 and 80 strips; the table lies
+    between the exact law on its default cells and that limit.
+    """
+    coarse, fine = (
+        slopes("exact", 0.1, 2.0, 0.05, cells_along=24, cells_across=n)[0] for n in (40, 80)
+    )
+    limit = 2 * fine - coarse
+    table = slopes("exact-table", 0.1, 2.0, 0.05)[0]
+    assert limit > 1.06 * coarse
+    assert coarse < table < limit
+
+
+AXIS_RATIOS = [0.02, 0.1, 0.3, 0.7, 1.0, 1 / 0.4, 1 / 0.2, 10.0, 40.0]
+
+
 @pytest.mark.parametrize("poisson", [0.0, 0.28, 0.5])
-@pytest.mark.parametrize("ratio", [0.02, 0.1, 0.15, 0.77, 1.0, 3.3, 10.0, 40.0])
+@pytest.mark.parametrize("ratio", AXIS_RATIOS)
 def test_kalkers_coefficients_at_zero_creepage(ratio, poisson):
+    """At the axis ratios that he tabulated, and by his asymptotes beyond them."""
     a, b = patch(ratio)
     tiny = 1e-9
     for state in ((tiny, 0, 0), (0, tiny, 0), (0, 0, tiny), (tiny, -tiny, 0.5 * tiny)):
@@ -117,8 +139,26 @@ def test_kalkers_coefficients_at_zero_creepage(ratio, poisson):
         table = np.array(creep_force("exact-table", *scaled, *rest))
         linear = np.array(creep_force("linear", *scaled, *rest))
         size = np.hypot(*linear[:2])
-        np.testing.assert_allclose(table[:2], linear[:2], atol=1e-5 * size)
-        np.testing.assert_allclose(table[2], linear[2], atol=1e-5 * (size * a + abs(linear[2])))
+        np.testing.assert_allclose(table[:2], linear[:2], atol=3e-5 * size)
+        np.testing.assert_allclose(table[2], linear[2], atol=3e-5 * (size * a + abs(linear[2])))
+
+
+@pytest.mark.parametrize("ratio", [0.12, 0.15, 0.25, 1 / 0.75, 1 / 0.25, 1 / 0.15, 1 / 0.12])
+def test_coefficients_between_kalkers_axis_ratios(ratio):
+    """The complete theory, extrapolated from 24 and 48 cells, to 1.2 %: as near as at his ratios.
+
+    A straight line between his b/a = 0.1 and 0.2 is 6 % off in C11 and C22, 16 % in C23.
+    """
+    a, b = patch(ratio)
+    tiny = 1e-9 * np.array(saturation(a, b, 0.28))
+    rest = (a, b, LOAD, FRICTION, SHEAR, 0.28)
+    for component, state in ((0, (1, 0, 0)), (1, (0, 1, 0)), (1, (0, 0, 1))):
+        coarse, fine = (
+            creep_force("exact", *(state * tiny), *rest, cells_along=n, cells_across=n)[component]
+            for n in (24, 48)
+        )
+        table = creep_force("exact-table", *(state * tiny), *rest)[component]
+        assert table == pytest.approx(2 * fine - coarse, rel=0.012)
 
 
 def test_limits_and_dissipation_everywhere():
@@ -172,8 +212,8 @@ def test_slope_is_continuous(line, start):
 
 
 def test_slope_over_the_shape_is_continuous():
-    """As far as Kalker's coefficients have one: between the nodes of his table."""
-    ratio = np.linspace(1.01, 1.11, 2001)
+    """Through the table's nodes, Kalker's axis ratios and the round patch."""
+    ratio = np.linspace(0.85, 1.15, 6001)
     a, b = patch(ratio)
     forces = np.array(
         creep_force("exact-table", 1e-3, 8e-4, 0.6, a, b, LOAD, FRICTION, SHEAR, 0.28)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset.creep import creep_force
-from exudyn_wheelset.creep.exact import influence, tractions
+from exudyn_wheelset.creep.cerruti import influence
+from exudyn_wheelset.creep.exact import tractions
 
 LOAD, FRICTION, SHEAR, POISSON = 80e3, 0.3, 82e9, 0.28
 LIMIT = LOAD * FRICTION

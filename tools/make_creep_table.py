@@ -2,9 +2,9 @@
 
     python tools/make_creep_table.py [folder of parts]
 
-Parts, three a shape, are kept in the folder (default build/creep_table); a second run makes those
+Parts, six a shape, are kept in the folder (default build/creep_table); a second run makes those
 that are missing. Then all are put together as exudyn_wheelset/creep/exact_table.npy, and its hash
-is written into exudyn_wheelset/creep/exact_table.py. About six minutes of one core.
+is written into exudyn_wheelset/creep/exact_table.py. About twenty minutes of one core.
 """
 
 import hashlib
@@ -16,9 +16,11 @@ import time
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.creep.exact_nodes import (
-    POWER,
+    AXIS_RATIOS,
+    POISSON,
     PSIS,
     RADII,
     ROUND,
@@ -26,28 +28,64 @@ from exudyn_wheelset.creep.exact_nodes import (
     THETAS,
     WARP,
     cell_coefficients,
+    cells_of,
     forces_at_nodes,
     size_at,
     turn_scale,
 )
+from exudyn_wheelset.creep.kalker import kalker_coefficients
 
 TABLE = Path(__file__).parents[1] / "exudyn_wheelset" / "creep" / "exact_table.npy"
-# half the range of sigma around saturation by spin that is solved twice as finely, half the range
-# of theta around pure spin that is solved there, and the equal parts of theta elsewhere
-REFINED = 0.14
-LEVEL = math.radians(22)
+# equal parts of theta that are solved at every second sigma
 COARSE = 18
+# around saturation by spin: rho_e where all sigma are solved, at how many parts of theta on each
+# side of pure spin and how many psi; half the range of theta where the table's own theta are
+KNEE_FROM, KNEE_TO = 0.5, 1.75
+AROUND, NEAR_SPIN = 4, 4
+LEVEL, LEVEL_PSIS = math.radians(22), 3
+# in place of psi = 0, where F_x is zero and F_x over n_x is wanted: on a wide patch the slip along
+# x then turns round well within the strips of cells beside y = 0
+SMALL_PSI = math.radians(0.5)
+# of the change of tractions in a sweep: 2e-4 and 3e-5 of mu N
+TOLERANCE, FINE_TOLERANCE = 2e-3, 3e-4
 
 
 def solved(
-    file: Path, shape: int, sigmas: np.ndarray, thetas: np.ndarray, psis: np.ndarray
+    file: Path,
+    shape: int,
+    sigmas: np.ndarray,
+    thetas: np.ndarray,
+    psis: np.ndarray,
+    tolerance: float = TOLERANCE,
 ) -> dict[str, np.ndarray]:
-    """Forces of one shape at those states, from the file or made and kept there."""
+    """Forces of one shape at those states, from the files or made and kept there.
+
+    The first psi has a file and a tolerance of its own.
+    """
+    first = _solved(file, shape, sigmas, thetas, psis[:1], FINE_TOLERANCE)
+    others = file.with_name(f"others_{file.name}")
+    rest = _solved(others, shape, sigmas, thetas, psis[1:], tolerance)
+    return {**first, "forces": np.concatenate([first["forces"], rest["forces"]], axis=2)}
+
+
+def _solved(
+    file: Path,
+    shape: int,
+    sigmas: np.ndarray,
+    thetas: np.ndarray,
+    psis: np.ndarray,
+    tolerance: float,
+) -> dict[str, np.ndarray]:
     if not file.exists():
         start = time.process_time()
         ratio = 10 ** (2 * shape / (SHAPES - 1) - 1)
-        coefficients = cell_coefficients(ratio)
-        forces = [forces_at_nodes(ratio, coefficients, theta, sigmas, psis) for theta in thetas]
+        cells = cells_of(ratio)
+        coefficients = cell_coefficients(ratio, *cells)
+        sizes = np.array([size_at(sigma) for sigma in sigmas])
+        forces = [
+            forces_at_nodes(ratio, *cells, coefficients, theta, sizes, psis, tolerance)
+            for theta in thetas
+        ]
         unfinished = file.with_name("unfinished.npz")
         np.savez(unfinished, ratio=ratio, coefficients=coefficients, forces=np.stack(forces, 1))
         unfinished.rename(file)
@@ -59,11 +97,13 @@ def solved(
 def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     """The cells' coefficients of one shape, and H at its nodes.
 
-    Solved are every second sigma at COARSE equal steps of theta, all sigma near saturation by spin,
-    and there the table's own theta near pure spin: the slope over lateral creepage falls by half
-    within a tenth of that spin. The other nodes are read off the splines through those.
+    Solved are every second sigma at COARSE equal steps of theta; all sigma near saturation by spin
+    in the directions around it; and there the table's own theta near pure spin: the slope over
+    lateral creepage falls by half within a tenth of that spin. The other nodes are read off the
+    splines through those.
     """
-    psis = 0.5 * np.pi * (np.arange(PSIS) + 0.5) / PSIS
+    psis = 0.5 * np.pi * np.arange(PSIS) / (PSIS - 1)
+    psis[0] = SMALL_PSI
     even = np.pi * (np.arange(COARSE) + 0.5) / COARSE
     coarse = np.arange(2, RADII + 1, 2)
     found = solved(folder / f"shape_{shape:02d}.npz", shape, coarse / RADII, even, psis)
@@ -75,12 +115,14 @@ def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     # half way between nodes two splines are one half each; the first stands before the first node
     all_values[2::2] = 0.5 * (spline[1:-2] + spline[2:-1])
     all_values[0] = 0.5 * (spline[0] + spline[1])
-    spin = (turn_scale(c[0], c[2], 1 / np.sqrt(ratio)) / c[2]) ** POWER
-    near = abs(np.arange(1, RADII + 1) / RADII - spin / (1 + spin)) <= REFINED
-    fine = 1 + np.flatnonzero(near)
+    sizes = np.array([size_at(i / RADII) for i in range(1, RADII + 1)])
+    fine = 1 + np.flatnonzero((sizes > KNEE_FROM) & (sizes < KNEE_TO))
     odd = fine[fine % 2 == 1]
-    found = solved(folder / f"fine_{shape:02d}.npz", shape, odd / RADII, even, psis)
-    all_values[odd - 1] = remainder(ratio, c, found["forces"], odd / RADII, even, psis)
+    around = np.arange(COARSE // 2 - AROUND, COARSE // 2 + AROUND)
+    near = np.arange(NEAR_SPIN)
+    states = odd / RADII, even[around], psis[near]
+    found = solved(folder / f"fine_{shape:02d}.npz", shape, *states)
+    all_values[np.ix_(odd - 1, around, near)] = remainder(ratio, c, found["forces"], *states)
 
     thetas = node_thetas()
     wide = mirrored_coefficients(all_values)[:, :, 1:-1]
@@ -91,9 +133,9 @@ def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     resampled = resampled + 0.5 * (0.5 + t) ** 2 * wide[:, node + 2]
     resampled = smoothed_psi(resampled)
     level = np.flatnonzero(abs(thetas - 0.5 * np.pi) < LEVEL)
-    spinning = np.arange(3)
+    spinning = np.arange(LEVEL_PSIS)
     states = fine / RADII, thetas[level], psis[spinning]
-    found = solved(folder / f"spin_{shape:02d}.npz", shape, *states)
+    found = solved(folder / f"spin_{shape:02d}.npz", shape, *states, FINE_TOLERANCE)
     resampled[np.ix_(fine - 1, level, spinning)] = remainder(ratio, c, found["forces"], *states)
     return c, resampled
 
@@ -111,8 +153,8 @@ def node_thetas() -> np.ndarray:
 def smoothed_psi(coefficients: np.ndarray) -> np.ndarray:
     """Values at the nodes of psi from coefficients (..., theta, psi, 3), by the mirrors."""
     signs = np.array([1.0, -1.0, -1.0])
-    before = np.concatenate([coefficients[..., :1, :], coefficients[..., :-1, :]], axis=-2)
-    turned = signs * coefficients[..., ::-1, -1:, :]
+    before = np.concatenate([coefficients[..., 1:2, :], coefficients[..., :-1, :]], axis=-2)
+    turned = signs * coefficients[..., ::-1, -2:-1, :]
     after = np.concatenate([coefficients[..., 1:, :], turned], axis=-2)
     return (before + 6 * coefficients + after) / 8
 
@@ -143,7 +185,7 @@ def mirrored(values: np.ndarray) -> np.ndarray:
     signs = np.array([1.0, -1.0, -1.0])
     # psi below 0: -v_x; above pi/2: -w, with theta turned round by v_y
     values = np.concatenate(
-        [values[..., :1, :], values, signs * values[..., ::-1, -1:, :]], axis=-2
+        [values[..., 1:2, :], values, signs * values[..., ::-1, -2:-1, :]], axis=-2
     )
     # theta below 0 and above pi: -v_x and -w, which is -v_y with all signs turned
     return np.concatenate(
@@ -153,6 +195,10 @@ def mirrored(values: np.ndarray) -> np.ndarray:
 
 def mirrored_coefficients(values: np.ndarray) -> np.ndarray:
     """Coefficients over theta and psi, with those beyond the ends; by iteration to rounding."""
+    signs = np.array([1.0, -1.0, -1.0])
+    values = values.copy()
+    without_spin = values[..., -1, :]
+    values[..., -1, :] = 0.5 * (without_spin + signs * without_spin[..., ::-1, :])
     found = values.copy()
     for _ in range(300):
         wide = mirrored(found)
@@ -160,7 +206,6 @@ def mirrored_coefficients(values: np.ndarray) -> np.ndarray:
         smooth = (smooth[..., :-2, :] + 6 * smooth[..., 1:-1, :] + smooth[..., 2:, :]) / 8
         found += values - smooth
     # at the poles theta = 0, pi the value is the mean of two rows, and the same for every psi
-    signs = np.array([1.0, -1.0, -1.0])
     pole = 0.5 * (found[..., :1, :, :] + signs * found[..., -1:, :, :])
     uneven = pole.mean(axis=-2, keepdims=True) - pole
     found[..., :1, :, :] += uneven
@@ -177,12 +222,13 @@ def remainder(
     psi: np.ndarray,
 ) -> np.ndarray:
     """H of the module exact_table at states of a shape: (sigmas, thetas, psi, 3)."""
-    rho = np.array([size_at(sigma) for sigma in sigmas])
-    s = (rho / (1 + rho))[:, None, None]
     theta = thetas[:, None]
     n_x, n_w = np.sin(theta) * np.sin(psi), np.sin(theta) * np.cos(psi)
     n_y = np.cos(theta)
     scale = turn_scale(c[0], c[2], 1 / np.sqrt(ratio))
+    sizes = np.array([size_at(sigma) for sigma in sigmas])[:, None, None]
+    rho = sizes / (1 - (1 - c[2] / scale) * n_w**2)
+    s = rho / (1 + rho)
     # the inverse of `rounded`, up to an eighth of its range below 1
     size = np.hypot(forces[..., 0], forces[..., 1])
     gap = np.maximum(1 - size, ROUND / 8)
@@ -193,6 +239,13 @@ def remainder(
     return np.stack([h_x, h_y, h_m], axis=-1)
 
 
+def smooth_kalker(lg_ratio: np.ndarray) -> np.ndarray:
+    """Kalker's C11, C22, C23, C33: ln C by a cubic spline over lg(a/b) through his axis ratios."""
+    ratios = np.array([*np.arange(1, 10) / 10, 1.0, *10 / np.arange(9, 0, -1)])
+    nodes = [kalker_coefficients(ratio, 1.0, POISSON) for ratio in ratios]
+    return np.exp(CubicSpline(np.log10(ratios), np.log(nodes))(lg_ratio))
+
+
 def main() -> None:
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else "build/creep_table")
     folder.mkdir(parents=True, exist_ok=True)
@@ -200,10 +253,15 @@ def main() -> None:
     table = mirrored_coefficients(np.stack([values for _, values in parts]))
     table = extrapolated(open_coefficients(table, 1), 1, 2, 1)
     table = extrapolated(open_coefficients(table, 0), 0, 1, 1)
-    cells = np.stack([coefficients for coefficients, _ in parts])
+    # C11, C22, C23, C32, C33 of the cells over Kalker's
+    kalker = smooth_kalker(np.linspace(-1, 1, SHAPES))[:, [0, 1, 2, 2, 3]]
+    cells = np.stack([coefficients for coefficients, _ in parts]) / kalker
     cells = extrapolated(open_coefficients(cells, 0), 0, 1, 1)
+    kalker = smooth_kalker(np.linspace(-1, 1, AXIS_RATIOS))
+    kalker = extrapolated(open_coefficients(kalker, 0), 0, 1, 1)
     content = io.BytesIO()
-    np.save(content, np.concatenate([cells.ravel(), table.ravel()]).astype(np.float32))
+    everything = [cells.ravel(), kalker.ravel(), table.ravel()]
+    np.save(content, np.concatenate(everything).astype(np.float32))
     TABLE.write_bytes(content.getvalue())
     digest = hashlib.sha256(content.getvalue()).hexdigest()
     code = TABLE.with_suffix(".py")

@@ -128,6 +128,7 @@ GROUPS = {
     "contact": Group(
         ("contact/search.py", "contact/patches.py", "contact/forces.py"),
         (
+            "test_contact_scan.py",
             "test_wrench_of_the_patches.py",
             "test_contact_against_CONTACT.py",
             "test_patches_of_a_sliding_wheelset.py",
@@ -389,13 +390,20 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=20, help="mutants drawn of each group")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--results", type=Path, default=PAGE.with_suffix(".json"))
-    parser.add_argument("--again", action="store_true", help="run the survivors once more")
+    parser.add_argument(
+        "--again", action="store_true", help="run the survivors of those groups once more"
+    )
     parser.add_argument("--table", action="store_true", help="print the results so far only")
     arguments = parser.parse_args()
     file = arguments.results
     results = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
     if arguments.again:
-        results = {key: e for key, e in results.items() if e["status"] == "killed"}
+        chosen = {m for name in arguments.groups or GROUPS for m in GROUPS[name].modules}
+        results = {
+            key: e
+            for key, e in results.items()
+            if e["status"] == "killed" or e["module"] not in chosen
+        }
     if not arguments.table:
         file.parent.mkdir(parents=True, exist_ok=True)
         for name in arguments.groups or GROUPS:

@@ -151,13 +151,11 @@ def critical_speeds() -> dict[str, dict[str, Any]]:
 
 
 def costs() -> dict[str, float]:
-    """Time of one call over that of `linear` by law, mean over creepages and spins on a patch."""
+    """Time of one call over that of `polach` by law, mean over creepages and spins on a patch."""
     states = np.vstack([rows[:, :3] for rows in creep_laws.reference_curves().values()])
-    measured = {
-        label: creep_laws.cost(law, parameters, states) for law, parameters, label, *_ in LAWS
-    }
-    measured[EXACT] = creep_laws.cost(EXACT, {}, states[::10])
-    return {label: spent / measured["linear"] for label, spent in measured.items()}
+    laws = {label: (law, parameters) for law, parameters, label, *_ in LAWS}
+    measured = creep_laws.costs({**laws, EXACT: (EXACT, {})}, states)
+    return {label: spent / measured[creep_laws.BASE] for label, spent in measured.items()}
 
 
 def draw(path: Path, errors: dict, steep: dict, points: dict, spent: dict[str, float]) -> None:

@@ -4,11 +4,11 @@ One law a module, all with the same kernel signature; `registry` knows them by n
 """
 
 from exudyn_wheelset.creep.kalker import kalker_coefficients
+from exudyn_wheelset.creep.kernel import creep_kernel
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.registry import (
     CREEP_LAWS,
     creep_force,
-    creep_kernel,
     creep_law,
     creep_parameters,
     law_of_kernel,

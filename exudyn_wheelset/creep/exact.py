@@ -3,15 +3,10 @@
 Sources: J. J. Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, 1990, chapters 2 to 4
 (the theory, elements, steady rolling); E. A. H. Vollebregt, A Gauss-Seidel type solver for special
 convex optimization problems in frictional contact mechanics, Journal of Optimization Theory and
-Applications 145, 2010 (elements solved one by one, each with its friction bound); K. L. Johnson,
-Contact Mechanics, 1985, section 3.6 (Cerruti's half-space).
+Applications 145, 2010 (elements solved one by one, each with its friction bound).
 
-Wheel and rail are half-spaces of the same material, so pressure and traction do not couple. With
-u = u_wheel - u_rail, both bodies together, traction p on the wheel in a cell of sides h, k gives
-    u_x = (X p_x + Z p_y)/(pi G),   u_y = (Z p_x + Y p_y)/(pi G),
-    X = A + (1 - nu) B,   Y = (1 - nu) A + B,   Z = -nu R,   each a sum over the cell's corners of
-    A = y ln(x + r),      B = x ln(y + r),      R = r        with signs + - - +,
-x and y from the corner to the point of observation (Cerruti's 1/r, x^2/r^3, x y/r^3 integrated).
+Wheel and rail are half-spaces of the same material, so pressure and traction do not couple; what
+a traction p on a cell moves, u = u_wheel - u_rail, is in exudyn_wheelset.creep.cerruti.
 
 A particle comes from x + h and is at x one step later. It has slipped, in steady rolling,
     s = h (xi_x - phi y, xi_y + phi (x + h/6)) + u(x, y) - u(x + h, y)
@@ -44,6 +39,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.creep.cerruti import influence
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 
@@ -52,8 +48,8 @@ LAW = CreepLaw(
     6,
     "Kalker 1990, complete theory",
     (
-        CreepParameter("cells_along", 30.0, 4.0, 200.0, "cells of the patch along x", whole=True),
-        CreepParameter("cells_across", 30.0, 4.0, 200.0, "cells of the patch across y", whole=True),
+        CreepParameter("cells_along", 40.0, 4.0, 200.0, "cells of the patch along x", whole=True),
+        CreepParameter("cells_across", 40.0, 4.0, 200.0, "cells of the patch across y", whole=True),
     ),
 )
 
@@ -64,44 +60,6 @@ FASTEST = 1e6
 SLOWEST = 1e-6
 # sums in any order, so that they run on vector units
 _FAST = {"reassoc", "contract", "nsz"}
-
-
-@compiled
-def influence(
-    along: int, across: int, step_x: float, step_y: float, poisson: float
-) -> tuple[NDArray, NDArray, NDArray]:
-    """Give pi G u_x from p_x, u_x from p_y (and u_y from p_x), u_y from p_y, for unit tractions.
-
-    Arrays (across, 2 along + 1): row j is the distance j step_y >= 0, column i + along the
-    distance i step_x between the cell that is loaded and the middle where u is.
-    """
-    columns = 2 * along + 1
-    of_a = np.empty((across + 1, columns + 1))
-    of_b = np.empty((across + 1, columns + 1))
-    of_r = np.empty((across + 1, columns + 1))
-    for j in range(across + 1):
-        y = (j - 0.5) * step_y
-        for i in range(columns + 1):
-            x = (i - along - 0.5) * step_x
-            r = math.sqrt(x * x + y * y)
-            # ln(x + r) without cancellation
-            log_x = math.log(x + r) if x > 0.0 else math.log(y * y / (r - x))
-            log_y = math.log(y + r) if y > 0.0 else math.log(x * x / (r - y))
-            of_a[j, i] = y * log_x
-            of_b[j, i] = x * log_y
-            of_r[j, i] = r
-    xx = np.empty((across, columns))
-    xy = np.empty((across, columns))
-    yy = np.empty((across, columns))
-    for j in range(across):
-        for i in range(columns):
-            value_a = of_a[j + 1, i + 1] - of_a[j + 1, i] - of_a[j, i + 1] + of_a[j, i]
-            value_b = of_b[j + 1, i + 1] - of_b[j + 1, i] - of_b[j, i + 1] + of_b[j, i]
-            value_r = of_r[j + 1, i + 1] - of_r[j + 1, i] - of_r[j, i + 1] + of_r[j, i]
-            xx[j, i] = value_a + (1.0 - poisson) * value_b
-            yy[j, i] = (1.0 - poisson) * value_a + value_b
-            xy[j, i] = -poisson * value_r
-    return xx, xy, yy
 
 
 @compiled(fastmath=_FAST)

@@ -11,12 +11,15 @@ B-splines through the table's nodes: slopes are continuous. Beyond the ends of t
     (-v_x, v_y, w): (-F_x, F_y, M_z)    and    (v_x, -v_y, -w): (F_x, -F_y, -M_z),
 and the law is evaluated for xi_x, phi >= 0, so mirror images are exact to the last bit.
 
-Coefficients: C above are those of the cells the table was solved on, within 1 to 2 % of Kalker's
-(6 % where his table is interpolated between b/a = 0.1 and 0.2). Kalker's hold at zero creepage:
-    v = v_cells + (v_Kalker - v_cells)/(1 + (rho/NEAR)^2).
-Poisson's number nu enters by them alone: C_cells(nu) = C_cells(0.28) C_Kalker(nu)/C_Kalker(0.28),
-and beyond saturation, rho > BETWEEN, where the direction of slip decides and stiffness does not,
-the ratios of v_x, v_y, w become those of 0.28.
+Coefficients: C above are those of the cells the table was solved on, within 1 to 2 % of Kalker's.
+Kalker's hold at zero creepage:
+    v = v_cells + (v_Kalker - v_cells)/(1 + (rho/NEAR)^2),
+at his axis ratios as tabulated and between them by a cubic spline of ln C over lg(a/b), which the
+complete theory confirms to 1 %. (`kalker_coefficients`, like CONTACT, is linear there and up to
+6 % high in C11 and C22, 16 % in C23 at b/a = 0.15, 11 % in C33 at a/b = 0.15.)
+Poisson's number nu enters by them alone: C(nu) = C(0.28) C_Kalker(nu)/C_Kalker(0.28), and beyond
+saturation, rho > BETWEEN, where the direction of slip decides and stiffness does not, the ratios of
+v_x, v_y, w become those of 0.28.
 Friction enters by mu N alone, the same all over the patch: for friction that falls with speed give
 the law the mu of that speed. Beyond a/b = 0.1 and 10 the table is that of the end, at the same
 (v_x, v_y, w) of the patch, its moment stretched with the long axis over sqrt(a b).
@@ -43,6 +46,7 @@ from numpy.typing import NDArray
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.exact_nodes import (
+    AXIS_RATIOS,
     POISSON,
     PSIS,
     RADII,
@@ -50,6 +54,7 @@ from exudyn_wheelset.creep.exact_nodes import (
     SHAPES,
     THETAS,
     WARP,
+    sigma_at,
     turn_scale,
 )
 from exudyn_wheelset.creep.kalker import kalker_coefficients
@@ -59,7 +64,7 @@ from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 LAW = CreepLaw("exact-table", 7, "Kalker 1990, complete theory, interpolated")
 
 FILE = Path(__file__).with_name("exact_table.npy")
-SHA256 = "25945a7089aa4adf3a604ba672844869c90b9254eaaa3c9dd1c5cea78085ad4d"
+SHA256 = "02f9f0f1863e769ff089e40916f44eca925a2913ce454ce19ea01c8719c1589c"
 NEAR = 0.25
 BETWEEN = 1.5
 LEAST_RATIO = 0.1
@@ -69,7 +74,8 @@ LARGEST = 1e30
 # one more coefficient on each side of every axis, two before the first sigma
 TABLE_SHAPE = (SHAPES + 2, RADII + 3, THETAS + 2, PSIS + 2, 3)
 _ROW = 3 * (PSIS + 2)
-_COEFFICIENTS = 5 * (SHAPES + 2)
+_RATIOS = 5 * (SHAPES + 2)
+_COEFFICIENTS = _RATIOS + 4 * (AXIS_RATIOS + 2)
 SIZE = _COEFFICIENTS + math.prod(TABLE_SHAPE)
 _SYMBOL = f"exudyn_wheelset_exact_table_{SHA256[:16]}"
 
@@ -154,40 +160,38 @@ def _interpolated(
 
 
 @compiled
-def _sigma(rho: float) -> float:
-    """rho^POWER/(1 + rho^POWER) for POWER = 5/4."""
-    power = rho * math.sqrt(math.sqrt(rho))
-    return power / (1.0 + power)
-
-
-@compiled
 def _cells_over_kalker(
-    of_cells: NDArray, ratio: float, x_shape: float
+    of_cells: NDArray, x_shape: float
 ) -> tuple[float, float, float, float, float]:
-    """Coefficients C11, C22, C23, C32, C33 of the cells over Kalker's, at the table's Poisson."""
+    """Coefficients C11, C22, C23, C32, C33 of the cells over Kalker's."""
     i = min(max(int(x_shape + 0.5), 0), SHAPES - 1)
     w0, w1, w2 = _weights(x_shape - i)
-    c11, c22, c23, c33 = kalker_coefficients(ratio, 1.0, POISSON)
     one = of_cells[i]
     two = of_cells[i + 1]
     three = of_cells[i + 2]
     return (
-        (w0 * one[0] + w1 * two[0] + w2 * three[0]) / c11,
-        (w0 * one[1] + w1 * two[1] + w2 * three[1]) / c22,
-        (w0 * one[2] + w1 * two[2] + w2 * three[2]) / c23,
-        (w0 * one[3] + w1 * two[3] + w2 * three[3]) / c23,
-        (w0 * one[4] + w1 * two[4] + w2 * three[4]) / c33,
+        w0 * one[0] + w1 * two[0] + w2 * three[0],
+        w0 * one[1] + w1 * two[1] + w2 * three[1],
+        w0 * one[2] + w1 * two[2] + w2 * three[2],
+        w0 * one[3] + w1 * two[3] + w2 * three[3],
+        w0 * one[4] + w1 * two[4] + w2 * three[4],
     )
 
 
 @compiled
-def _linear_parts(
-    ratio: float, r11: float, r22: float, r23: float, r32: float, r33: float
-) -> tuple[float, float, float]:
-    """C23/S, C32/C22, C33/S of the table's cells at its ends, where the patch is more slender."""
-    c11, c22, c23, c33 = kalker_coefficients(ratio, 1.0, POISSON)
-    scale = turn_scale(c11 * r11, c23 * r23, 1.0 / math.sqrt(ratio))
-    return c23 * r23 / scale, c23 * r32 / (c22 * r22), c33 * r33 / scale
+def _smooth_kalker(coefficients: NDArray, place: float) -> tuple[float, float, float, float]:
+    """Kalker's coefficients at the table's Poisson's number, at a place in steps between nodes."""
+    i = min(max(int(place + 0.5), 0), AXIS_RATIOS - 1)
+    w0, w1, w2 = _weights(place - i)
+    one = coefficients[i]
+    two = coefficients[i + 1]
+    three = coefficients[i + 2]
+    return (
+        w0 * one[0] + w1 * two[0] + w2 * three[0],
+        w0 * one[1] + w1 * two[1] + w2 * three[1],
+        w0 * one[2] + w1 * two[2] + w2 * three[2],
+        w0 * one[3] + w1 * two[3] + w2 * three[3],
+    )
 
 
 @compiled
@@ -215,7 +219,6 @@ def exact_table(
     state_w = unit * length * abs(bounded(spin))
     if turned:
         state_y = -state_y
-    c11, c22, c23, c33 = kalker_coefficients(a, b, poisson)
     factor = 1.0
     largest = max(state_x, abs(state_y), state_w)
     if largest > LARGEST:
@@ -231,22 +234,42 @@ def exact_table(
     data = carray(_table_pointer(), (SIZE,))  # type: ignore[call-arg]
     table = data[_COEFFICIENTS:]
     ratio = min(max(a / b, LEAST_RATIO), 1.0 / LEAST_RATIO)
-    x_shape = 0.5 * (SHAPES - 1) * (math.log10(ratio) + 1.0)
-    r11, r22, r23, r32, r33 = _cells_over_kalker(
-        data[:_COEFFICIENTS].reshape((SHAPES + 2, 5)), ratio, x_shape
+    place = 0.5 * (math.log10(ratio) + 1.0)
+    x_shape = (SHAPES - 1) * place
+    r11, r22, r23, r32, r33 = _cells_over_kalker(data[:_RATIOS].reshape((SHAPES + 2, 5)), x_shape)
+    t11, t22, t23, t33 = _smooth_kalker(
+        data[_RATIOS:_COEFFICIENTS].reshape((AXIS_RATIOS + 2, 4)), (AXIS_RATIOS - 1) * place
     )
-    cells_23 = c23 * r23
-    scale = turn_scale(c11 * r11, cells_23, b / length)
+    table_scale = turn_scale(t11 * r11, t23 * r23, 1.0 / math.sqrt(ratio))
+    of_spin = t23 * r23 / table_scale
+    of_y = t23 * r32 / (t22 * r22)
+    of_w = t33 * r33 / table_scale
+    inside = ratio == a / b and poisson == POISSON
+    c11, c22, c23, c33, scale = t11, t22, t23, t33, table_scale
+    softer = 1.0
+    twist = 1.0
+    if not inside:
+        here = kalker_coefficients(a, b, poisson)
+        there = kalker_coefficients(ratio, 1.0, POISSON)
+        c11 *= here[0] / there[0]
+        c22 *= here[1] / there[1]
+        c23 *= here[2] / there[2]
+        c33 *= here[3] / there[3]
+        scale = turn_scale(c11 * r11, c23 * r23, b / length)
+        if poisson != POISSON:
+            steel = kalker_coefficients(a, b, POISSON)
+            common = here[1] / steel[1]
+            softer = common * steel[0] / here[0]
+            steel_11 = c11 * steel[0] / here[0]
+            steel_23 = c23 * steel[2] / here[2]
+            twist = common * turn_scale(steel_11 * r11, steel_23 * r23, b / length) / scale
     v_x = state_x * c11 * r11
     v_y = state_y * c22 * r22
     w = state_w * scale
-    if poisson != POISSON:
-        t11, t22, t23, _ = kalker_coefficients(a, b, POISSON)
-        rough = v_x * v_x + v_y * v_y + w * w
-        far = rough / (BETWEEN * BETWEEN + rough)
-        common = c22 / t22
-        v_x *= 1.0 + far * (common * t11 / c11 - 1.0)
-        w *= 1.0 + far * (common * turn_scale(t11 * r11, t23 * r23, b / length) / scale - 1.0)
+    rough = v_x * v_x + v_y * v_y + w * w
+    far = rough / (BETWEEN * BETWEEN + rough)
+    v_x *= 1.0 + far * (softer - 1.0)
+    w *= 1.0 + far * (twist - 1.0)
     near = 1.0 / (1.0 + (v_x * v_x + v_y * v_y + w * w) / (NEAR * NEAR))
     v_x *= 1.0 + near * (1.0 / r11 - 1.0)
     v_y *= 1.0 + near * (1.0 / r22 - 1.0)
@@ -256,20 +279,16 @@ def exact_table(
     h_x, h_y, h_m = _interpolated(
         table,
         x_shape,
-        RADII * _sigma(rho) - 1.0,
+        RADII * sigma_at(rho * (1.0 - (1.0 - of_spin) * (w / rho) * (w / rho))) - 1.0,
         THETAS / math.pi * (math.atan2(side, v_y) - WARP * (side / rho) * (v_y / rho)) - 0.5,
-        2.0 * PSIS / math.pi * math.atan2(v_x, w) - 0.5,
+        2.0 * (PSIS - 1) / math.pi * math.atan2(v_x, w),
     )
     s = rho / (1.0 + rho)
     ahead = s / rho
     square = s * s
-    of_spin = cells_23 / scale
-    of_y = c23 * r32 / (c22 * r22)
-    of_w = c33 * r33 / scale
     stretch = 1.0
     beyond = 0.0
-    if ratio != a / b or poisson != POISSON:
-        of_spin, of_y, of_w = _linear_parts(ratio, r11, r22, r23, r32, r33)
+    if not inside:
         stretch = math.sqrt(max(ratio / (a / b), a / b / ratio))
         beyond = near * (c23 * state_w - of_spin * w)
     force_x = ahead * v_x * (1.0 + s * h_x)

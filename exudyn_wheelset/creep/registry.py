@@ -1,9 +1,8 @@
-"""The creep laws by name, one compiled entry for all of them, and the public `creep_force`.
+"""The creep laws by name, and the public `creep_force`.
 
 A law is added to the package by a module with a kernel of the common signature and its `LAW`, one
-entry in `CREEP_LAWS` and one branch in `creep_kernel` (a chain over whole numbers, because compiled
-code that calls functions by reference cannot be cached on disk); outside the package by
-`register_creep_law`, or by giving the compiled function where a name is asked for.
+entry in `CREEP_LAWS` and one branch in `creep_kernel`; outside the package by `register_creep_law`,
+or by giving the compiled function where a name is asked for.
 """
 
 from __future__ import annotations
@@ -15,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.arguments import (
     check_names,
     check_patch,
@@ -25,25 +23,17 @@ from exudyn_wheelset.creep.arguments import (
     unknown,
 )
 from exudyn_wheelset.creep.exact import LAW as EXACT
-from exudyn_wheelset.creep.exact import exact
 from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
-from exudyn_wheelset.creep.exact_table import exact_table
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
-from exudyn_wheelset.creep.fastsim import fastsim
+from exudyn_wheelset.creep.kernel import creep_force_rows
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.linear import LAW as LINEAR
-from exudyn_wheelset.creep.linear import linear
-from exudyn_wheelset.creep.own import OWN_LAW, address_of, call_law, law_at
+from exudyn_wheelset.creep.own import OWN_LAW, address_of, law_at
 from exudyn_wheelset.creep.polach import LAW as POLACH
-from exudyn_wheelset.creep.polach import polach
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
-from exudyn_wheelset.creep.polach_2005 import polach_2005
 from exudyn_wheelset.creep.polach_kalker import LAW as POLACH_KALKER
-from exudyn_wheelset.creep.polach_kalker import polach_kalker
 from exudyn_wheelset.creep.shen_hedrick_elkins import LAW as SHEN_HEDRICK_ELKINS
-from exudyn_wheelset.creep.shen_hedrick_elkins import shen_hedrick_elkins
 from exudyn_wheelset.creep.vermeulen_johnson import LAW as VERMEULEN_JOHNSON
-from exudyn_wheelset.creep.vermeulen_johnson import vermeulen_johnson
 from exudyn_wheelset.errors import WheelsetError
 
 CREEP_LAWS: dict[str, CreepLaw] = {
@@ -67,184 +57,6 @@ _ARGUMENTS = {
     *("creep_x", "creep_y", "spin", "a", "b", "normal_force", "friction", "shear_modulus"),
     *("poisson", "law", "normal", "creep", "damping", "contact", "law_parameters"),
 }
-
-_LINEAR = LINEAR.number
-_VERMEULEN_JOHNSON = VERMEULEN_JOHNSON.number
-_SHEN_HEDRICK_ELKINS = SHEN_HEDRICK_ELKINS.number
-_POLACH = POLACH.number
-_POLACH_2005 = POLACH_2005.number
-_POLACH_KALKER = POLACH_KALKER.number
-_EXACT = EXACT.number
-_EXACT_TABLE = EXACT_TABLE.number
-
-
-@compiled
-def creep_kernel(
-    law_number: int,
-    creep_x: float,
-    creep_y: float,
-    spin: float,
-    a: float,
-    b: float,
-    normal_force: float,
-    friction: float,
-    shear_modulus: float,
-    poisson: float,
-    parameters: NDArray,
-) -> tuple[float, float, float]:
-    """Give (F_x, F_y, M_z) on the wheel by the law of that number, for compiled callers.
-
-    Creepages [-] and spin [1/m] as (wheel - rail)/V; semi-axes a along rolling and b lateral [m];
-    normal_force [N]; shear_modulus [Pa]; parameters: float64 array from `creep_parameters`.
-    Forces [N] and moment about the contact normal [N m]. Zero without load, friction or patch;
-    finite for every finite input. Nothing is checked here.
-    """
-    if law_number == _POLACH:
-        return polach(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _LINEAR:
-        return linear(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _VERMEULEN_JOHNSON:
-        return vermeulen_johnson(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _SHEN_HEDRICK_ELKINS:
-        return shen_hedrick_elkins(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _POLACH_2005:
-        return polach_2005(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _EXACT_TABLE:
-        return exact_table(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _EXACT:
-        return exact(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == _POLACH_KALKER:
-        return polach_kalker(
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    if law_number == OWN_LAW:
-        return call_law(  # type: ignore[call-arg]
-            creep_x,
-            creep_y,
-            spin,
-            a,
-            b,
-            normal_force,
-            friction,
-            shear_modulus,
-            poisson,
-            parameters,
-        )
-    return fastsim(
-        creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson, parameters
-    )
-
-
-@compiled
-def _creep_force_rows(law_number: int, states: NDArray, parameters: NDArray) -> NDArray:
-    """Run `creep_kernel` over states (n, 9) and parameters (n, p) or (1, p); gives (n, 3)."""
-    forces = np.empty((states.shape[0], 3))
-    last = parameters.shape[0] - 1
-    for i in range(states.shape[0]):
-        row = states[i]
-        force_x, force_y, moment = creep_kernel(
-            law_number,
-            row[0],
-            row[1],
-            row[2],
-            row[3],
-            row[4],
-            row[5],
-            row[6],
-            row[7],
-            row[8],
-            parameters[min(i, last)],
-        )
-        forces[i, 0] = force_x
-        forces[i, 1] = force_y
-        forces[i, 2] = moment
-    return forces
 
 
 def creep_law(law: Any) -> CreepLaw:
@@ -403,7 +215,7 @@ def creep_force(
     if description.function is not None:
         address = np.full((len(laws_own), 1), address_of(description.function), dtype=float)
         laws_own = np.hstack([address, laws_own])
-    forces = _creep_force_rows(description.number, states, laws_own)
+    forces = creep_force_rows(description.number, states, laws_own)
     if shape == ():
         return float(forces[0, 0]), float(forces[0, 1]), float(forces[0, 2])
     return tuple(forces[:, i].reshape(shape) for i in range(3))  # type: ignore[return-value]
