@@ -45,13 +45,13 @@ FLANGE = math.radians(70.0)
 
 def run(
     *, vehicle: str = "manchester_coach", radius: float = 300.0, cant: float = 0.12,
-    speed: float = 18.0, shape: str = "bloss", damping: float = 1.0,
+    speed: float = 18.0, shape: str = "bloss", damping: float | None = None,
     out: str | Path | None = None, progress: bool = False,
 ) -> dict[str, Any]:  # fmt: skip
     """Everything the header names; radius, cant [m], speed [m/s], contact damping [s/m]."""
     car = catalogue.vehicle(vehicle)
-    # Without damping a wheelset hops on its flange.
-    car = replace(car, contact=replace(car.contact, damping=damping))
+    if damping is not None:
+        car = replace(car, contact=replace(car.contact, damping=damping))
     curve = steady_curve(car, radius, cant, speed)
     layout = Layout(
         [
@@ -148,7 +148,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser.add_argument("--cant", type=float, default=0.12, help="of the outer rail [m]")
     parser.add_argument("--speed", type=float, default=18.0, help="[m/s]")
     parser.add_argument("--shape", default="bloss", help="of the transitions")
-    parser.add_argument("--damping", type=float, default=1.0, help="of the contact [s/m]")
+    parser.add_argument("--damping", type=float, help="of the contact [s/m]")
     return run_script(_run, parser, argv, _show)
 
 

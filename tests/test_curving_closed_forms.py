@@ -41,7 +41,6 @@ CONE = Wheelset(1250.0, (700.0, 100.0, 700.0), RADIUS, cone(LAMBDA))
 EDGES = Track(knife_edge(1e-2), inclination=0.0, datum_half_distance=HALF)
 LINEAR = Contact(creep="linear", damping=1.0)
 COACH = catalogue.vehicle("manchester_coach")
-DAMPED = replace(COACH, contact=replace(COACH.contact, damping=1.0))
 
 
 def wagon(track, contact, mass=20e3, height=1.8, stiffness=1.0e9, **axle):
@@ -267,8 +266,8 @@ def test_a_coach_in_a_narrow_curve_runs_on_its_leading_outer_flange():
 def test_the_end_of_a_simulated_curve_is_the_steady_one():
     radius, cant, speed = 300.0, 0.12, 18.0
     layout = Layout([Straight(30), Transition(50, "bloss"), Curve(radius, 220, cant)])
-    motion = simulate(DAMPED.on(replace(COACH.track, layout=layout)), speed, 300.0 / speed)
-    curve = steady_curve(DAMPED, radius, cant, speed)
+    motion = simulate(COACH.on(replace(COACH.track, layout=layout)), speed, 300.0 / speed)
+    curve = steady_curve(COACH, radius, cant, speed)
     assert motion.distance[-1] == pytest.approx(300.0)
     assert motion.y[-1] == pytest.approx(curve.y, abs=1e-5)
     assert motion.Q[-1] == pytest.approx(curve.Q, rel=2e-3)
@@ -288,7 +287,7 @@ def test_the_moving_frame_s_own_solver_is_exudyn_s():
     layout = Layout(
         [Straight(10), Transition(30), Curve(400, 60, 0.1)], gradient=[(0, 0), (60, 0.01)]
     )
-    coach = DAMPED.on(replace(COACH.track, layout=layout))
+    coach = COACH.on(replace(COACH.track, layout=layout))
     ours, exudyn = (simulate(coach, 20.0, 2.0, solver_type=kind) for kind in (None, "RK44"))
     assert ours.y == pytest.approx(exudyn.y, abs=2e-6)
     assert pytest.approx(exudyn.Q, rel=2e-3) == ours.Q
@@ -314,7 +313,7 @@ def test_a_curve_too_narrow_says_how_far_it_came():
 def test_mirrored_vehicles_on_mirrored_track():
     layout = Layout([Straight(10), Transition(30), Curve(400, 60, 0.1, widening=0.005)])
     rough = Irregularity.from_psd("ERRI B176 low", 5, length=120.0, fade_in=20.0)
-    coach = DAMPED.on(replace(COACH.track, layout=layout, irregularity=rough))
+    coach = COACH.on(replace(COACH.track, layout=layout, irregularity=rough))
     one, other = (simulate(vehicle, 20.0, 2.0) for vehicle in (coach, coach.mirrored()))
     # Rounding, grown by the motion.
     assert one.y == pytest.approx(-other.y, abs=1e-8)
