@@ -23,8 +23,10 @@ from typing import Any
 from exudyn_wheelset.catalogue.cooperrider_bogie import STATE_NAMES, cooperrider_system
 from exudyn_wheelset.catalogue.cooperrider_reference import cooperrider_reference_system
 from exudyn_wheelset.front.output import write_figure, write_json
+from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.front.tables import print_rows
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
@@ -117,24 +119,15 @@ def _print_table(numbers: dict[str, Any]) -> None:
     for speed, amplitude in numbers["amplitude_mm"].items():
         text = "no stable cycle" if amplitude is None else f"{amplitude:.3f} mm"
         rows.append((f"leading wheelset at {speed} m/s", text))
-    for what, value in rows:
-        print(f"{what:34s}{value}")
+    print_rows(rows)
 
 
 def _draw(branch: Branch, path: Path) -> None:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(figsize=(7.0, 4.5))
-    branch.plot(axes, LEADING_WHEELSET, factor=1e3)
-    axes.set_ylabel("lateral amplitude of the leading wheelset [mm]")
-    axes.set_title("Cooperrider bogie")
-    axes.grid(alpha=0.3)
-    figure.tight_layout()
+    figure, axes = new_figure(7.0, 4.5)
+    branch.plot(axes[0, 0], LEADING_WHEELSET, factor=1e3)
+    axes[0, 0].set_ylabel("lateral amplitude of the leading wheelset [mm]")
+    axes[0, 0].set_title("Cooperrider bogie")
     write_figure(path, figure)
-    plt.close(figure)
 
 
 if __name__ == "__main__":

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import argparse
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.catalogue.by_name import entry, vehicle, vehicle_system
+from exudyn_wheelset.catalogue.by_name import entry, vehicle
 from exudyn_wheelset.front.diagrams import diagram_figure, draw_diagram
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
@@ -36,6 +37,7 @@ from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 
+NORMAL = "hertz"
 LAWS = ("polach", "shen-hedrick-elkins", "fastsim")
 # Flange impacts are taken up in one blow, as on a track with ballast (catalogue/by_name.py).
 DAMPING = 10.0
@@ -54,7 +56,8 @@ def branch_of(
 ) -> tuple[ExudynSystem, CriticalPoint, Branch]:
     """System, first Hopf point and branch inside `span` (in Hopf speeds), kept in `folder`."""
     begun = time.perf_counter()
-    system = vehicle(name, **changes).dynamic_system()
+    model = vehicle(name, **changes)
+    system = replace(model, contact={**model.contact, "normal": NORMAL}).dynamic_system()
     hopf = hopf_points(system, *entry(name).searched)[0]
     speeds = (span[0] * hopf.speed, span[1] * hopf.speed)
     about = {"vehicle": name, "options": changes}
@@ -114,7 +117,7 @@ def sets(folder: Path) -> None:
         small.set_xlim(-0.75, 0.75)
         small.set_xlabel("speed beyond that of the smallest orbit [%]")
         small.set_ylabel("y, half of peak to peak [mm]")
-        small.legend(fontsize=8, frameon=False, loc="lower right")
+        small.legend(fontsize=8, frameon=False, loc="lower left")
     write_figure(HERE / "hunting_paper_sets.png", figure)
 
 
@@ -136,6 +139,8 @@ def influences(folder: Path) -> None:
             known = branch if place == 1 else known
         labels = [words.format(value) for value in values]
         draw_diagram(panel, Diagram(branches), labels=labels, notes=False)
+        above: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": 3}
+        panel.legend(fontsize=8, frameon=False, columnspacing=1.0, **above)
     write_figure(HERE / "hunting_influences.png", figure)
 
 
@@ -174,7 +179,8 @@ def small(folder: Path) -> None:
     for law in LAWS:
         cells = []
         for k in (1, 2, 3):
-            system = vehicle_system(f"paper-{k}", creep=law)
+            model = vehicle(f"paper-{k}", creep=law)
+            system = replace(model, contact={**model.contact, "normal": NORMAL}).dynamic_system()
             hopf = hopf_points(system, *entry(f"paper-{k}").searched)[0]
             span = (0.97 * hopf.speed, 1.03 * hopf.speed)
             branch = branch_from(system, hopf, span, maximum_points=2)

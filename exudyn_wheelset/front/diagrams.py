@@ -81,7 +81,7 @@ def draw_diagram(
     axes.set_ylim(bottom=0.0)
     # Room for the notes beside lowest folds.
     left, right = axes.get_xlim()
-    axes.set_xlim(left - 0.08 * (right - left), right)
+    axes.set_xlim(left - 0.12 * (right - left), right)
     axes.set_xlabel("forward speed [m/s]")
     what = name.split(" [")[0]
     axes.set_ylabel(f"{what}, half of peak to peak" + (f" [{unit}]" if unit else ""))

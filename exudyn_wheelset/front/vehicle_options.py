@@ -154,4 +154,6 @@ def titled(system: str, options: dict[str, Any]) -> str:
 
 
 def _plain(value: Any) -> str:
-    return Path(value).stem if isinstance(value, str) else f"{value:g}"
+    if isinstance(value, str):
+        return Path(value).stem if Path(value).is_file() else value
+    return f"{value:g}"
