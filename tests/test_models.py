@@ -116,3 +116,15 @@ def test_command_line_prints_only_json(tmp_path):
         check=True,
     )
     assert list(json.loads(done.stdout)) == ["S1002 on UIC60"]
+
+
+def test_the_script_of_the_page_runs(tmp_path, capsys):
+    """docs/contributing.md shows a whole script; the paper's Table 2 has 38.8 m/s for set 1."""
+    page = (ROOT / "docs" / "contributing.md").read_text(encoding="utf-8")
+    script = {"__name__": "page"}
+    exec(page.split("```python\n")[1].split("```")[0], script)
+    words = ["--vehicle", "paper-lateral-1", "--json", "--out", str(tmp_path)]
+    assert script["main"](words) == 0
+    assert json.loads(capsys.readouterr().out)["speed"] == pytest.approx(38.8, rel=0.06)
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["roots_paper-lateral-1.json", "roots_paper-lateral-1.png"]

@@ -78,7 +78,7 @@ def descent_of(folder: Path, name: str, system: ExudynSystem, hopf: CriticalPoin
     """Descent from 1.1 Hopf speeds in steps of 1 %, kept in `folder`."""
     begun = time.perf_counter()
     # Flange impacts at 14 Hz want finer steps than the default: 161.0 m/s becomes 164.8 m/s.
-    system.step = min(system.step, 1.0 / (250.0 * hopf.frequency))
+    system.runner.step = min(system.step, 1.0 / (250.0 * hopf.frequency))
     high, low = 1.1 * hopf.speed, 0.6 * hopf.speed
     descent = quasi_static_descent(system, high, low, step=0.01 * hopf.speed, disturbance=10.0)
     descent.save(folder / f"{name}_descent.npz")
