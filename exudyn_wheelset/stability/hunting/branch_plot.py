@@ -65,16 +65,21 @@ def draw_branch(
         apart = (abs(at - v) / reach + abs(height - a) / rise > _NOTE_DISTANCE for v, a in noted)
         if notes and all(apart):
             noted.append((at, height))
-            _note(axes, f"{what} {at:.2f} m/s", at, height, colour, leftwards)
+            # Notes of changes below the branch, where those of folds do not stand.
+            above = {"Hopf": 4, "fold": 0 if leftwards else 4}.get(what, -12)
+            where = -7 if leftwards else 7, above
+            _note(axes, f"{what} {at:.2f} m/s", (at, height), where, colour)
 
 
-def _note(axes: Axes, text: str, speed: float, value: float, colour: str, leftwards: bool) -> None:
+def _note(
+    axes: Axes, text: str, place: tuple[float, float], beside: tuple[int, int], colour: str
+) -> None:
     axes.annotate(
         text,
-        (speed, value),
-        xytext=(-7, 0) if leftwards else (7, 4),
+        place,
+        xytext=beside,
         textcoords="offset points",
-        horizontalalignment="right" if leftwards else "left",
+        horizontalalignment="right" if beside[0] < 0 else "left",
         fontsize=8,
         color=colour,
     )

@@ -198,13 +198,23 @@ def disturbances_beside(
 
 
 def disturbed_speeds(branch: Branch, count: int = 4) -> Array:
-    """Speeds [m/s] inside the range where straight run and hunting are both stable, or none."""
+    """Speeds [m/s] inside the range where straight run and hunting are both stable, or none.
+
+    The range begins at the lowest fold beside which an orbit is not unstable for certain.
+    """
     if branch.hopf is None or not np.any(branch.stable):
         return np.empty(0)
-    low, high = branch.lowest_stable()[0], branch.hopf[0]
-    # Small limit cycles beside a supercritical Hopf point are not what a disturbance leads to.
-    first = branch.folds[0].index if branch.folds else len(branch)
-    if np.any(branch.stable[:first]):
+    lasting = branch.stable | branch.uncertain
+    folds = [
+        float(fold)
+        for fold in branch.folds
+        if fold.side == "lowest" and np.any(lasting[max(0, fold.index - 1) : fold.index + 2])
+    ]
+    low, high = min([branch.lowest_stable()[0], *folds]), branch.hopf[0]
+    # Small limit cycles beside the Hopf point are not what a disturbance leads to.
+    turns = [fold.index for fold in branch.folds if fold.side == "highest"]
+    first = turns[0] if turns else (branch.folds[0].index if branch.folds else len(branch))
+    if np.any(lasting[:first]) and branch.speed[:first].min() > low:
         high = min(high, float(branch.speed[:first].min()))
     if high - low < 1e-3 * high:
         return np.empty(0)
