@@ -27,8 +27,9 @@ from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.axisymmetry import check_spin, inverse_mass
 from exudyn_wheelset.systems.checks import check_arguments, check_states
+from exudyn_wheelset.systems.constraints import JointedLayout, follow_joints, jointed_layout
 from exudyn_wheelset.systems.described import described
-from exudyn_wheelset.systems.exudyn_layout import lay_out
+from exudyn_wheelset.systems.exudyn_layout import Layout, lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_wheelsets import (
     check_speed_is_a_parameter,
@@ -71,9 +72,12 @@ class ExudynSystem(DynamicSystem):
     step            largest time step of `simulate` [s]; that of the settings (endTime -
                     startTime)/numberOfSteps if they are given, else 5e-4
 
-    Raises AnalysisError for constraints (algebraic equations), data coordinates (hidden states),
-    nodes that cannot spin, wheelsets that run over the ground (their speed is no parameter of the
-    model) and a model that has neither wheelsets nor `set_speed`.
+    Joints and constraints are taken in independent coordinates (constraints.py): the states are
+    those that are left, motions are computed by generalised alpha unless said otherwise.
+
+    Raises AnalysisError for nodes with Euler parameters, data coordinates (hidden states), nodes
+    that cannot spin, wheelsets that run over the ground (their speed is no parameter of the model)
+    and a model that has neither wheelsets nor `set_speed`.
     """
 
     def __init__(
@@ -114,18 +118,23 @@ class ExudynSystem(DynamicSystem):
         self._initialise_solver()
         spinning = _as_mapping(spinning_nodes)
         unknown = [items for items in self.wheelsets if items.node not in spinning]
-        layout = lay_out(
+        whole = lay_out(
             mbs,
             self.runner.nodes,
             {**rolling_radii(unknown), **spinning},
             _as_mapping(cyclic),
             name,
         )
-        self.layout = layout
+        layout: Layout | JointedLayout = whole
+        if self._solver.GetAEsize():
+            wheelset_nodes = [items.node for items in self.wheelsets]
+            layout = jointed_layout(name, mbs, self._solver, whole, wheelset_nodes)
+            follow_joints(self.runner, name, settings is None and solver_type is None)
+        self.layout: Any = layout
         self._positions = layout.positions
-        self._position_of = layout.position_of
-        self._rotations = layout.rotations
-        self._reference = layout.reference
+        self._position_of = whole.position_of
+        self._rotations = whole.rotations
+        self._reference = whole.reference
         self._steady_velocities = layout.steady_velocities
         self.wheelset_names = tuple(layout.wheelsets)
         self.stiff = bool(self.wheelsets)
@@ -146,14 +155,15 @@ class ExudynSystem(DynamicSystem):
             layout.wheelset_states([int(k) for k in self._data.GetNodeLTGODE2(items.node)])
             for items in self.wheelsets
         ]
-        self.lateral_indices = tuple(place[0] for place in places if place[0] >= 0)
-        self.yaw_indices = tuple(place[2] for place in places if place[0] >= 0)
+        known = [place for place in places if place[0] >= 0 and place[2] >= 0]
+        self.lateral_indices = tuple(place[0] for place in known)
+        self.yaw_indices = tuple(place[2] for place in known)
         # Lateral and vertical displacement and roll of each wheelset.
         self.pose_indices = tuple((place[0], place[1], place[3]) for place in places)
         self._inverse_mass, self._constant_mass = inverse_mass(
-            name, layout, self.scales, self.state_names, self._mass_matrix
+            name, whole, np.array(whole.scales), whole.names, self._mass_matrix
         )
-        check_spin(name, layout, self.scales, self.state_names, self._force)
+        check_spin(name, whole, np.array(whole.scales), whole.names, self._force)
 
     @property
     def contacts(self) -> tuple[WheelRailContact, ...]:
@@ -172,6 +182,8 @@ class ExudynSystem(DynamicSystem):
         """
         self.use_speed(speed)
         state = np.ascontiguousarray(state, dtype=float)
+        if isinstance(self.layout, JointedLayout):
+            return self._jointed_rate(self.layout, state)
         expand_state(
             state,
             self._position_of,
@@ -181,12 +193,29 @@ class ExudynSystem(DynamicSystem):
             self._velocities,
             self._first_order,
         )
+        force = self._right_hand_side(self._coordinates, self._velocities, self._first_order)
+        rate = np.empty(self.scales.shape[0])
+        state_rate(state, force, self._inverse_mass, self._position_of, self._rotations, rate)
+        return rate
+
+    def _jointed_rate(self, layout: JointedLayout, state: Array) -> Array:
+        whole = layout.complete(state)
+        coordinates, velocities, first_order = layout.whole.expand(whole)
+        rates = np.array(self._right_hand_side(coordinates, velocities, first_order))
+        rates = rates[: self._order2 + self._order1]
+        rates[: self._order2] = layout.joints.accelerations(
+            coordinates, velocities, rates[: self._order2], self._inverse_mass
+        )
+        return layout.rate(whole, rates)
+
+    def _right_hand_side(self, coordinates: Array, velocities: Array, first_order: Array) -> Array:
+        """Generalised forces and rates (nq + n1), with the inverse of the mass matrix there."""
         data, solver, mbs = self._data, self._solver, self.mbs
-        data.SetODE2Coordinates(self._coordinates)
-        data.SetODE2Coordinates_t(self._velocities)
+        data.SetODE2Coordinates(coordinates)
+        data.SetODE2Coordinates_t(velocities)
         try:
             if self._order1:
-                data.SetODE1Coordinates(self._first_order)
+                data.SetODE1Coordinates(first_order)
             solver.ComputeODE2RHS(mbs)
             if self._order1:
                 solver.ComputeODE1RHS(mbs)
@@ -196,9 +225,7 @@ class ExudynSystem(DynamicSystem):
                 self._inverse_mass = np.linalg.inv(solver.GetSystemMassMatrix())
         except Exception as error:
             raise AnalysisError(f"{self.name}: {failure_words(error)}") from error
-        rate = np.empty(self.scales.shape[0])
-        state_rate(state, force, self._inverse_mass, self._position_of, self._rotations, rate)
-        return rate
+        return force
 
     def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
         """Contact patches with their creep laws at a state, by wheelset and wheel."""
@@ -312,12 +339,6 @@ class ExudynSystem(DynamicSystem):
         self._solver = solver
         self._order2 = solver.GetODE2size()
         self._order1 = solver.GetODE1size()
-        if solver.GetAEsize():
-            raise AnalysisError(
-                f"{self.name}: the model has {solver.GetAEsize()} algebraic equations "
-                "(joints, constraints or Euler parameters), which this analysis does not treat; "
-                "replace joints by stiff springs and use NodeType.RotationRotationVector"
-            )
 
     def _set_contact_speeds(self, mbs: Any, speed: float) -> None:
         for contact in self.contacts:

@@ -32,6 +32,7 @@ from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.systems.constraints import JointedLayout
 from exudyn_wheelset.systems.curving import check_run, follow_rails, frames_of, stand_at
 from exudyn_wheelset.systems.exudyn_layout import Layout, lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
@@ -151,10 +152,14 @@ def motion_of(
     if isinstance(system, VehicleSystem):
         loads = {name: list(pair) for name, pair in system.vehicle_items.loads.items()}
         record = {**record, "static_loads": loads}
+    layout: Any = system.layout
+    names = system.state_names
+    if isinstance(layout, JointedLayout):
+        # What depends on others moves too.
+        layout, names = layout.whole, layout.whole.names
     return _motion(
-        system.mbs, times, raw, system.layout, system.state_names, system.wheelsets, outcome,
-        speed, station, record,
-    )  # fmt: skip
+        system.mbs, times, raw, layout, names, system.wheelsets, outcome, speed, station, record
+    )
 
 
 def _station(

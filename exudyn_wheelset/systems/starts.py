@@ -32,6 +32,9 @@ def shifted_state(system: DynamicSystem, speed: float, shift: float) -> Array:
         state[system.displacement_indices[0]] += shift
         return state
     for items, (lateral, vertical, roll) in zip(system.wheelsets, system.pose_indices, strict=True):
+        if min(lateral, vertical, roll) < 0:
+            # Cyclic, or held by a joint to what is moved.
+            continue
         contact = items.contact
         limit = min(contact.guidance.shift)
         number(f"shift of {items.name}", shift, "m", -limit, limit, "is it given in metres?")
