@@ -22,6 +22,7 @@ states. Joints must not depend on time, nor on velocities alone.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -30,6 +31,7 @@ import numpy as np
 from scipy.linalg import qr
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems.exudyn_layout import Layout
 from exudyn_wheelset.systems.exudyn_running import Runner
@@ -82,13 +84,13 @@ class JointedLayout:
         y, z, yaw, roll = (self._place.get(place, CYCLIC) for place in places)
         return y, z, yaw, roll
 
-    def complete(self, state: Array) -> Array:
-        """The whole state of an independent one, its joints closed."""
+    def complete(self, state: Array) -> tuple[Array, Array]:
+        """The whole state of an independent one, its joints closed, and their Jacobian there."""
         return self.joints.complete(np.asarray(state, dtype=float), self._kept)
 
     def expand(self, state: Array) -> tuple[Array, Array, Array]:
         """Coordinates, velocities (nq,), (nq,) and first-order ones (n1,) of a state (n,)."""
-        return self.whole.expand(self.complete(state))
+        return self.whole.expand(self.complete(state)[0])
 
     def reduce(self, coordinates: Array, velocities: Array, first_order: Array) -> Array:
         """States (m, n) of m coordinates, velocities (m, nq) and first-order ones (m, n1)."""
@@ -120,6 +122,7 @@ class Joints:
         self._first = len(whole.names) - whole.positions
         self._count = int(solver.GetAEsize())
         self._rows = np.arange(self._count)
+        self._before = np.array(solver.GetSystemJacobian())[self._first :, : self._order]
         # Without reactions in Exudyn's own right-hand side.
         self._data.SetAECoordinates(np.zeros(self._count))
         self._start = start.copy()
@@ -152,8 +155,8 @@ class Joints:
             raise AnalysisError(f"{name}: its joints leave the model nothing to move")
         self._slope = -np.linalg.solve(held[:, self.bound_positions], held[:, self.free_positions])
 
-    def complete(self, state: Array, kept: Array) -> Array:
-        """The whole state whose entries `kept` are those of `state`."""
+    def complete(self, state: Array, kept: Array) -> tuple[Array, Array]:
+        """The whole state whose entries `kept` are those of `state`, and G (m, nq) there."""
         whole = self._start.copy()
         whole[kept] = state
         bound, free = self.bound_positions, self.free_positions
@@ -162,8 +165,8 @@ class Joints:
         for _ in range(_NEWTON_STEPS):
             coordinates = self._whole.expand(whole)[0]
             residual = self._residual(coordinates)
-            jacobian = self._jacobian(coordinates)
             size = float(np.abs(residual).max())
+            jacobian = self._jacobian(coordinates)
             if size < _CLOSED or (size < _NEARLY_CLOSED and size > 0.5 * before):
                 break
             before = size
@@ -183,17 +186,18 @@ class Joints:
         velocities[self.bound_velocities] = -np.linalg.solve(
             jacobian[:, self.bound_velocities], moving
         )
-        return whole
+        return whole, jacobian
 
-    def accelerations(
-        self, coordinates: Array, velocities: Array, force: Array, inverse_mass: Array
-    ) -> Array:
-        """Accelerations (nq,) under forces (nq,): equations (1)."""
+    def bend(self, coordinates: Array, velocities: Array) -> Array:
+        """gamma (m,) = (dG/dt) v; leaves Exudyn a little beside the coordinates."""
         along = _ALONG / max(float(np.abs(velocities).max()), 1e-3)
         ahead = self._jacobian(self._moved(coordinates, velocities, along)) @ velocities
         behind = self._jacobian(self._moved(coordinates, velocities, -along)) @ velocities
-        jacobian = self._jacobian(coordinates)
-        bent = (ahead - behind) / (2.0 * along)
+        return (ahead - behind) / (2.0 * along)
+
+    @staticmethod
+    def accelerations(jacobian: Array, bent: Array, force: Array, inverse_mass: Array) -> Array:
+        """Accelerations (nq,) under forces (nq,): equations (1)."""
         yielding = inverse_mass @ jacobian.T
         free = inverse_mass @ force
         reactions = np.linalg.solve(jacobian @ yielding, jacobian @ free + bent)
@@ -209,11 +213,10 @@ class Joints:
         solver = self._solver
         self._data.SetODE2Coordinates(coordinates)
         # Exudyn adds to what is there.
-        before = np.array(solver.GetSystemJacobian())[self._first :, : self._order]
         solver.ComputeJacobianAE(self._mbs, 1.0, 0.0, 1.0, False)
-        after = np.array(solver.GetSystemJacobian())[self._first :, : self._order]
+        added = solver.GetSystemJacobian()[self._first :, : self._order] - self._before
         solver.ComputeJacobianAE(self._mbs, -1.0, 0.0, 1.0, False)
-        return (after - before)[self._rows]
+        return added[self._rows]
 
     def _spinning(self) -> set[int]:
         """Velocities of spinning bodies."""
@@ -246,15 +249,48 @@ class Joints:
     def _moved(self, coordinates: Array, velocities: Array, time: float) -> Array:
         """Coordinates after a short time [s] of the motion."""
         moved = coordinates + time * velocities
-        for (first, _, _), reference in zip(
-            self._whole.rotations.tolist(), self._whole.reference, strict=True
-        ):
-            there = slice(first, first + 3)
-            turned = _product(
-                _unit(coordinates[there] + reference), _unit(time * velocities[there])
-            )
-            moved[there] = _vector(turned) - reference
+        turn_bodies(
+            coordinates, velocities, time, self._whole.rotations, self._whole.reference, moved
+        )
         return moved
+
+
+@compiled
+def turn_bodies(
+    coordinates: Array,
+    velocities: Array,
+    time: float,
+    rotations: Array,
+    reference: Array,
+    moved: Array,
+) -> None:
+    """Put rotation vectors that angular velocities in body axes reach in a time [s] into `moved`.
+
+    Unit quaternions: that of the body times that of the small turn.
+    """
+    for k in range(rotations.shape[0]):
+        start = rotations[k, 0]
+        a1 = coordinates[start] + reference[k, 0]
+        a2 = coordinates[start + 1] + reference[k, 1]
+        a3 = coordinates[start + 2] + reference[k, 2]
+        angle = math.sqrt(a1 * a1 + a2 * a2 + a3 * a3)
+        factor = math.sin(0.5 * angle) / angle if angle > 1e-12 else 0.5
+        a0, a1, a2, a3 = math.cos(0.5 * angle), factor * a1, factor * a2, factor * a3
+        b1 = time * velocities[start]
+        b2 = time * velocities[start + 1]
+        b3 = time * velocities[start + 2]
+        angle = math.sqrt(b1 * b1 + b2 * b2 + b3 * b3)
+        factor = math.sin(0.5 * angle) / angle if angle > 1e-12 else 0.5
+        b0, b1, b2, b3 = math.cos(0.5 * angle), factor * b1, factor * b2, factor * b3
+        c0 = a0 * b0 - a1 * b1 - a2 * b2 - a3 * b3
+        c1 = a0 * b1 + b0 * a1 + a2 * b3 - a3 * b2
+        c2 = a0 * b2 + b0 * a2 + a3 * b1 - a1 * b3
+        c3 = a0 * b3 + b0 * a3 + a1 * b2 - a2 * b1
+        sine = math.sqrt(c1 * c1 + c2 * c2 + c3 * c3)
+        factor = 2.0 * math.atan2(sine, c0) / sine if sine > 1e-12 else 2.0
+        moved[start] = factor * c1 - reference[k, 0]
+        moved[start + 1] = factor * c2 - reference[k, 1]
+        moved[start + 2] = factor * c3 - reference[k, 2]
 
 
 def _spanning(matrix: Array, wanted: Array, most: int) -> Array:
@@ -266,25 +302,6 @@ def _spanning(matrix: Array, wanted: Array, most: int) -> Array:
     lengths = wanted[order[: len(size)]]
     rank = int(np.sum(size > _RANK * np.abs(matrix).max() * np.minimum(lengths, 1.0)))
     return np.sort(order[: min(rank, most)])
-
-
-def _unit(vector: Array) -> Array:
-    """Unit quaternion of a rotation vector."""
-    angle = float(np.linalg.norm(vector))
-    factor = np.sin(0.5 * angle) / angle if angle > 1e-12 else 0.5
-    return np.array([np.cos(0.5 * angle), *(factor * vector)])
-
-
-def _product(left: Array, right: Array) -> Array:
-    a, b = left[1:], right[1:]
-    return np.array([left[0] * right[0] - a @ b, *(left[0] * b + right[0] * a + np.cross(a, b))])
-
-
-def _vector(unit: Array) -> Array:
-    """Rotation vector of a unit quaternion."""
-    sine = float(np.linalg.norm(unit[1:]))
-    factor = 2.0 * np.arctan2(sine, unit[0]) / sine if sine > 1e-12 else 2.0
-    return factor * unit[1:]
 
 
 def jointed_layout(

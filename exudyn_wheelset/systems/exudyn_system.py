@@ -199,12 +199,13 @@ class ExudynSystem(DynamicSystem):
         return rate
 
     def _jointed_rate(self, layout: JointedLayout, state: Array) -> Array:
-        whole = layout.complete(state)
+        whole, jacobian = layout.complete(state)
         coordinates, velocities, first_order = layout.whole.expand(whole)
+        bent = layout.joints.bend(coordinates, velocities)
         rates = np.array(self._right_hand_side(coordinates, velocities, first_order))
         rates = rates[: self._order2 + self._order1]
         rates[: self._order2] = layout.joints.accelerations(
-            coordinates, velocities, rates[: self._order2], self._inverse_mass
+            jacobian, bent, rates[: self._order2], self._inverse_mass
         )
         return layout.rate(whole, rates)
 
