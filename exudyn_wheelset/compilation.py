@@ -185,11 +185,16 @@ def compiled(function: Any = None, **options: Any) -> Any:
         return lambda function: compiled(function, **options)
     dispatcher = numba.njit(error_model="numpy", **options)(function)
     if dispatcher is not function:
-        try:
-            dispatcher._cache = _Cache(function)
-        except RuntimeError:
-            _log.info("no folder to keep compiled kernels in: they are compiled at every start")
+        keep(dispatcher, function)
     return dispatcher
+
+
+def keep(compiling: Any, function: Any) -> None:
+    """Let numba keep what it compiles of a function where this package keeps its kernels."""
+    try:
+        compiling._cache = _Cache(function)
+    except RuntimeError:
+        _log.info("no folder to keep compiled kernels in: they are compiled at every start")
 
 
 def warm_up() -> float:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1] / "exudyn_wheelset"
 LAYERS = (
-    ("errors", "arrays", "constants", "checking", "locking", "compilation"),
+    ("errors", "arrays", "constants", "checking", "locking", "compilation", "addresses", "apart"),
     ("track",),
     ("creep", "profiles", "results", "studies"),
     ("contact",),

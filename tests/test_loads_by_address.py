@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import Track, Wheelset, create_wheelset, dtu_truck, wheelsets_of
-from exudyn_wheelset.coupling.addresses import address_of
+from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.coupling.wheelset_kernel import wrench_at
 
 WHEELSET = Wheelset(mass=1813.0, inertia=(1120.0, 112.0, 1120.0), radius=0.46, wheel="S1002")

@@ -29,16 +29,24 @@ symmetry holds to rounding. Records and named tuples: layout.py.
 
 import math
 
+from numba import float64, int64, void
+
+from exudyn_wheelset.addresses import numbers_at
+from exudyn_wheelset.apart import Apart
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
 from exudyn_wheelset.contact.layout import (
+    PARAMETER_COUNT,
     PARAMETERS,
+    RAIL_MOTION,
     RESULT,
+    RESULT_SIZE,
     STRIPS,
     Axle,
     Creepage,
     Slip,
     Traction,
+    Velocity,
     side_of,
 )
 from exudyn_wheelset.contact.patches import side_patches
@@ -125,17 +133,7 @@ def _out_of(a, x, y, z):
 
 
 @compiled(fastmath=AS_REAL_NUMBERS)
-def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
-    """Fill `result` with the wrench on the wheelset and its patches; return nothing.
-
-    table: contact_tables(). axle (Axle): y, z [m] of the centre, z from `radius` above the rail
-    tops, and the axle's unit vector; velocity (Velocity) of the centre over the ground and
-    angular, track frame. rail_motion (12): lateral and vertical shift of the left and the right
-    rail [m], their velocities if they move [m/s], their slopes [-]. parameters:
-    contact_parameters(); result: new_result().
-    Patches come back in the axes that follow their rail, on the right side too with y to the
-    left; positions and angles count towards the field side.
-    """
+def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     options = parameters.view(PARAMETERS)[0]
     out = result.view(RESULT)[0]
     shares = out.work.shares
@@ -221,3 +219,36 @@ def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     out.moment[0] = moment_x
     out.moment[1] = moment_y
     out.moment[2] = moment_z
+
+
+def _forces_at(
+    table, size, rail_motion, parameters, result, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz
+):  # fmt: skip
+    _wheelset_forces(
+        numbers_at(table, size), Axle(y, z, lx, ly, lz), Velocity(vx, vy, vz, wx, wy, wz),
+        numbers_at(rail_motion, RAIL_MOTION), numbers_at(parameters, PARAMETER_COUNT),
+        numbers_at(result, RESULT_SIZE),
+    )  # fmt: skip
+
+
+FORCES = Apart(_forces_at, void(*5 * (int64,), *11 * (float64,)))
+_call = FORCES.call
+
+
+@compiled
+def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
+    """Fill `result` with the wrench on the wheelset and its patches; return nothing.
+
+    table: contact_tables(). axle (Axle): y, z [m] of the centre, z from `radius` above the rail
+    tops, and the axle's unit vector; velocity (Velocity) of the centre over the ground and
+    angular, track frame. rail_motion (12): lateral and vertical shift of the left and the right
+    rail [m], their velocities if they move [m/s], their slopes [-]. parameters:
+    contact_parameters(); result: new_result().
+    Patches come back in the axes that follow their rail, on the right side too with y to the
+    left; positions and angles count towards the field side.
+    """
+    _call((
+        table.ctypes.data, table.size, rail_motion.ctypes.data, parameters.ctypes.data,
+        result.ctypes.data, axle.y, axle.z, axle.lx, axle.ly, axle.lz, velocity.x, velocity.y,
+        velocity.z, velocity.about_x, velocity.about_y, velocity.about_z,
+    ))  # fmt: skip

@@ -195,6 +195,8 @@ RESULT = _record(
     ("count", "i8", (2,)), ("patches", PATCH, (2, MOST_PATCHES)), ("work", WORK),
 )  # fmt: skip
 PARAMETER_COUNT = PARAMETERS.itemsize // 8
+# Shifts, velocities and slopes of both rails (forces.py).
+RAIL_MOTION = 12
 RESULT_SIZE = RESULT.itemsize // 8
 
 

@@ -27,7 +27,7 @@ from exudyn_wheelset.contact.descriptions import (
     Wheelset,
     check_contact_names,
 )
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces import FORCES, wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
@@ -66,6 +66,8 @@ def contact_parameters(
     Raises WheelsetError for unknown names and impossible values, and where a contact and its
     numbers are both given.
     """
+    # Whoever runs the kernels has come by here for their parameters.
+    FORCES.ready()
     chosen = one_contact(
         contact,
         normal=normal,

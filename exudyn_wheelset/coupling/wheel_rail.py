@@ -26,11 +26,11 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
-from exudyn_wheelset.coupling.addresses import address_of
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance, guidance
 from exudyn_wheelset.coupling.track_frame import TrackFrame

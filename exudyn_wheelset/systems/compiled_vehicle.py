@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.coupling.addresses import address_of
 from exudyn_wheelset.coupling.moving_frame import BODY, CENTRE, INERTIA, MASS, MOTION
 from exudyn_wheelset.systems import vehicle_kernel as kernel
 from exudyn_wheelset.systems.exudyn_layout import Layout

@@ -28,9 +28,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from exudyn_wheelset.addresses import integers_at, numbers_at
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.coupling.addresses import integers_at, numbers_at
 from exudyn_wheelset.coupling.moving_frame import BODY as FRAME_ROW
 from exudyn_wheelset.coupling.moving_frame import add_body_loads, frame_motion
 from exudyn_wheelset.coupling.track_kernel import CURVED
