@@ -35,6 +35,9 @@ from exudyn_wheelset import (
     save_vehicle,
 )
 from exudyn_wheelset.front.vehicle_options import named_vehicle
+from exudyn_wheelset.track.files import write_layout
+from exudyn_wheelset.track.irregularity import Irregularity
+from exudyn_wheelset.track.layout import Curve, Layout, Straight, Transition
 from exudyn_wheelset.vehicles import elements
 from exudyn_wheelset.vehicles.files.element_types import snake_case
 from exudyn_wheelset.vehicles.files.reading import vehicle_of
@@ -149,6 +152,25 @@ def test_loads_preloads_and_free_lengths_come_back_equal(tmp_path):
     made.load(frame, (0, 0, -1e4), (0.1, 0, 1))
     vehicle = made.finish()
     assert load_vehicle(written(vehicle, tmp_path)[1]) == vehicle
+
+
+def test_curves_and_rough_rails_come_back_equal(tmp_path):
+    layout = Layout(
+        [Straight(50), Transition(50, shape="bloss"), Curve(radius=-300, cant=0.12, length=500)],
+        gradient=[(0.0, 0.0), (100.0, 0.01)],
+    )
+    distance = np.linspace(0.0, 30.0, 61)
+    rough = Irregularity.from_points(distance, 1e-3 * np.sin(distance), gauge=2e-4)
+    vehicle = wagon().on(Track("UIC60", layout=layout, irregularity=rough))
+    text, path = written(vehicle, tmp_path)
+    assert load_vehicle(path) == vehicle
+    path.write_text(text.replace('kind = "bloss"', 'kind = "x"').replace('"curve"', '"curwe"'))
+    with pytest.raises(VehicleError, match=r"line \d+: \[track\]: layout.*did you mean 'curve'"):
+        load_vehicle(path)
+    write_layout(layout, tmp_path / "line.toml")
+    plain = save_vehicle(wagon(), path).read_text()
+    path.write_text(plain.replace("[track]", '[track]\nlayout = "line.toml"'))
+    assert load_vehicle(path).track.layout == layout
 
 
 def test_profiles_of_ones_own_come_back_equal(tmp_path):

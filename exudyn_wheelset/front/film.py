@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import warnings
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.front.animation import Camera, render, show_rails, write_film
 from exudyn_wheelset.results.files import write_atomically
 from exudyn_wheelset.results.motion import Motion
+from exudyn_wheelset.vehicles.description import Vehicle
 
 VIEWS = ("vehicle", "truck", "wheel")
 # Rails to be seen beyond the ends of the vehicle [m].
@@ -182,6 +184,9 @@ def _on_rails(vehicle: Any, motion: Motion, cut: bool) -> tuple[Any, Any, tuple[
         )
     container = exu.SystemContainer()
     mbs: Any = container.AddSystem()
+    if isinstance(vehicle, Vehicle):
+        # The picture moves along: a curve is straight in it.
+        vehicle = vehicle.on(replace(vehicle.track, layout=None, irregularity=None))
     vehicle.create(mbs, motion.speed, sensors=False)
     axles = [axle.x for axle in getattr(vehicle, "wheelsets", ())] or [0.0]
     reach = (min(axles) - 1.5, max(axles) + 1.5)

@@ -28,7 +28,8 @@
 
 A profile is a name of the package, a file beside the vehicle file, a table with `file` and options
 of `load_profile` ({file = "worn.whl", smoothing = "auto"}), or the name of a `[[profile]]` with
-name, kind, y and z [m]. Units: units.py.
+name, kind and points [y, z] in metres. Layout and irregularity of the track: track_entries.py.
+Units: units.py.
 """
 
 from exudyn_wheelset.vehicles.files.element_types import register_element

@@ -15,7 +15,11 @@ from typing import Any, get_args, get_origin
 from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.track.irregularity import Irregularity
+from exudyn_wheelset.track.layout import Layout
 
+# What is an object already where a table is turned into one.
+MADE = (Profile, Layout, Irregularity)
 _KINDS = {bool: "true or false", str: "text", int: "a whole number", float: "a number"}
 
 
@@ -122,7 +126,8 @@ def _converter() -> Any:
     made = Converter(forbid_extra_keys=True, detailed_validation=True)
     for kind in _KINDS:
         made.register_structure_hook(kind, _strict)
-    made.register_structure_hook(Profile, lambda value, _: value)
+    for kind in MADE:
+        made.register_structure_hook(kind, lambda value, _: value)
     made.register_structure_hook_func(lambda kind: kind is Any, lambda value, _: frozen(value))
     made.register_structure_hook_func(
         lambda kind: get_origin(kind) is tuple, functools.partial(_row, made)

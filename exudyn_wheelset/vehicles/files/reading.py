@@ -29,6 +29,7 @@ from exudyn_wheelset.vehicles.files.converting import (
 )
 from exudyn_wheelset.vehicles.files.element_types import element_type
 from exudyn_wheelset.vehicles.files.lines import line_of
+from exudyn_wheelset.vehicles.files.track_entries import irregularity_of, layout_of
 from exudyn_wheelset.vehicles.files.units import Implausible, check_axle, check_vehicle
 
 if sys.version_info >= (3, 11):
@@ -109,7 +110,7 @@ class _Reader:
                 key, profile = _sampled(entry)
                 self._profiles[key] = profile
         with self._reading("track"):
-            track = to_object(Track, self._with_profiles(top.get("track", {})))
+            track = self._track(top.get("track", {}))
         with self._reading("contact"):
             contact = _contact(top.get("contact", {}))
         with self._reading(""):
@@ -211,6 +212,16 @@ class _Reader:
                 except Exception as error:
                     raise EntryError(f"{key} = {made[key]!r}: {error}", key) from error
         return made
+
+    def _track(self, table: dict[str, Any]) -> Track:
+        made = self._with_profiles(table)
+        for key, make in (("layout", layout_of), ("irregularity", irregularity_of)):
+            if key in made:
+                try:
+                    made[key] = make(made[key], self._folder)
+                except Exception as error:
+                    raise EntryError(f"{key}: {error}", key) from error
+        return to_object(Track, made)
 
     def _profile(self, source: Any, kind: str) -> Profile:
         options: dict[str, Any] = {}

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from exudyn_wheelset.constants import GRAVITY
+from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import VehicleError, WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.results.files import write_atomically
@@ -14,6 +17,7 @@ from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.files.converting import to_table
 from exudyn_wheelset.vehicles.files.element_types import type_name
 from exudyn_wheelset.vehicles.files.reading import OF_CONNECTION, vehicle_of
+from exudyn_wheelset.vehicles.files.track_entries import irregularity_table, layout_table
 from exudyn_wheelset.vehicles.files.units import check_vehicle
 
 # What an entry has of its own where all else is like that of an earlier one.
@@ -80,7 +84,7 @@ def vehicle_text(vehicle: Vehicle, description: str = "") -> str:
         check_vehicle(vehicle)
     except WheelsetError:
         document["check"] = False
-    document["track"] = to_table(vehicle.track, profile_key)
+    document["track"] = _track_table(vehicle.track, profile_key)
     document["contact"] = _contact_table(vehicle)
     lists = {
         "wheelset": [
@@ -113,6 +117,16 @@ def _is_shipped(name: str) -> bool:
     except WheelsetError:
         return False
     return True
+
+
+def _track_table(track: Track, profile_key: Callable[[Profile], str]) -> dict[str, Any]:
+    plain = replace(track, layout=None, irregularity=None)
+    table = to_table(plain, profile_key)
+    if track.layout is not None:
+        table["layout"] = layout_table(track.layout)
+    if track.irregularity is not None:
+        table["irregularity"] = irregularity_table(track.irregularity)
+    return table
 
 
 def _contact_table(vehicle: Vehicle) -> dict[str, Any]:
