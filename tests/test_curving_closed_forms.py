@@ -32,6 +32,7 @@ from exudyn_wheelset import (
 )
 from exudyn_wheelset.creep.kalker import kalker_coefficients
 from exudyn_wheelset.profiles.shapes import cone, knife_edge
+from exudyn_wheelset.results.en14363 import low_pass
 from exudyn_wheelset.vehicles.layout import ROD
 from exudyn_wheelset.vehicles.rest import find_rest
 
@@ -51,7 +52,7 @@ def wagon(track, contact, mass=20e3, height=1.8, stiffness=1.0e9, **axle):
     for name, x in (("leading", 2.5), ("trailing", -2.5)):
         own = made.wheelset(name, wheelset, x=x)
         for side, y in (("left", 1.0), ("right", -1.0)):
-            spring = Spring((stiffness, stiffness, stiffness), (1e4, 1e4, 1e5))
+            spring = Spring(np.broadcast_to(stiffness, 3).tolist(), (1e4, 1e4, 1e5))
             made.connect(spring, own, body, at=(x, y, own.z), name=f"{name} {side} spring")
     return made.finish()
 
@@ -318,3 +319,43 @@ def test_mirrored_vehicles_on_mirrored_track():
     # Rounding, grown by the motion.
     assert one.y == pytest.approx(-other.y, abs=1e-8)
     assert pytest.approx(other.Q[:, :, ::-1], rel=1e-5) == one.Q
+
+
+def test_a_suspended_body_leans_as_its_springs_say():
+    """k_phi (phi - phi_w) = m a h + m g h phi, phi_w the axles' roll, h over the springs."""
+    radius, speed, mass, height, vertical = 4000.0, 40.0, 20.0e3, 1.8, 1.0e6
+    soft = wagon(EDGES, LINEAR, mass=mass, height=height, stiffness=(1e8, 1e8, vertical))
+    curve = steady_curve(soft, radius, 0.0, speed)
+    arm = height - RADIUS
+    axles = np.mean([curve[f"{name}: track roll"] for name in curve.wheelsets])
+    # Springs at +-1 m, four of them.
+    moment = mass * arm * (speed**2 / radius + GRAVITY * axles)
+    known = moment / (4.0 * vertical - mass * GRAVITY * arm)
+    assert curve["body: roll"] - axles == pytest.approx(known, rel=5e-3)
+
+
+def test_the_pull_through_a_curve_is_what_creep_takes():
+    """Work of the drawbar over the way is that of all creep forces on creepage, the wear numbers.
+
+    Patches of a wheel that merge share one creepage, which makes half a per cent here.
+    """
+    curve = steady_curve(COACH, 300.0, 0.12, 18.0)
+    bar = curve.system.vehicle_items.drawbar
+    part = COACH.parts[bar.part].name
+    pull = bar.pull - bar.stiffness * curve[f"{part}: x"]
+    taken = -sum(
+        patch.fx * patch.creep_x + patch.fy * patch.creep_y + patch.mz * patch.spin
+        for patches in curve.patches.values()
+        for patch in patches
+    )
+    assert taken == pytest.approx(pull, rel=1e-2)
+    assert curve.wear_number().sum() == pytest.approx(pull, rel=1e-2)
+
+
+def test_halving_the_step_leaves_what_is_below_20_hz():
+    rough = Irregularity.from_psd("ERRI B176 low", 2, length=150.0)
+    coach = COACH.on(replace(COACH.track, irregularity=rough))
+    one, half = (simulate(coach, 40.0, 2.0, step=step) for step in (5e-4, 2.5e-4))
+    for name in ("Q", "Y"):
+        slow, finer = (low_pass(motion.time, getattr(motion, name)) for motion in (one, half))
+        assert np.abs(slow - finer).max() < 0.01 * np.ptp(finer)

@@ -176,6 +176,9 @@ class Placed:
     def stance(self):
         return self.place
 
+    def station(self, time):
+        return 20.0 * time
+
 
 @pytest.mark.parametrize("hand", [0, 1])
 def test_hops_are_forgiven_and_hovering_is_not(hand):

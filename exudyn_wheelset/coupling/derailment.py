@@ -58,7 +58,7 @@ class DerailmentWatch:
             if ending is None and ways.max() > LIFT_OFF_WAY:
                 ending = Ending.LIFT_OFF
             if ending is not None:
-                return Outcome(ending, _words(contact.name, place, time))
+                return Outcome(ending, _words(contact.name, place, time, contact.station(time)))
         return None
 
 
@@ -74,9 +74,10 @@ def _judge(place: np.ndarray, limits: Guidance) -> Ending | None:
     return None
 
 
-def _words(name: str, place: np.ndarray, time: float) -> str:
+def _words(name: str, place: np.ndarray, time: float, station: float) -> str:
     return (
-        f"{name} at {time:.3f} s stands at y = {place[0] * 1e3:.1f} mm, its left wheel "
-        f"{place[2] * 1e3:.1f} mm and its right wheel {place[3] * 1e3:.1f} mm above the rails, "
+        f"{name} at {time:.3f} s, {station:.1f} m along the track, stands at y = "
+        f"{place[0] * 1e3:.1f} mm, its left wheel {place[2] * 1e3:.1f} mm and its "
+        f"right wheel {place[3] * 1e3:.1f} mm above the rails, "
         f"with {place[4]:.0f} patches on the left and {place[5]:.0f} on the right"
     )

@@ -39,11 +39,13 @@ from exudyn_wheelset.coupling.wheelset_kernel import (
     ELASTICITY,
     MEMORY,
     PARAMETERS,
+    PLACE,
     RAIL_MOTION,
     RATES,
     REFERENCE,
     RESULT,
     SHIFTS,
+    STATION,
     body_wrench,
     stance,
     wheel_history,
@@ -237,6 +239,13 @@ class WheelRailContact:
     def guidance(self) -> Guidance:
         """How far the wheelset may go and still be guided by its rails."""
         return guidance(self.wheelset, self.track)
+
+    def station(self, time: float) -> float:
+        """Where along the track [m] the wheelset stood when its loads were last asked for, at a
+        time [s]."""
+        if not self.track_frame.is_plain:
+            return float(self._state[PLACE][STATION])
+        return float(self.reference[0] + self._memory[0] + self.rail_speed * time)
 
     def stance(self) -> np.ndarray:
         """Where the wheelset stood when its loads were last asked for, as `stance` fills it."""
