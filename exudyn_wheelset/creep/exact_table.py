@@ -40,7 +40,7 @@ from typing import Any
 import llvmlite.binding
 import numpy as np
 from llvmlite import ir
-from numba import carray, types
+from numba import carray, config, types
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
@@ -106,6 +106,19 @@ def _table_pointer(_context: Any) -> Any:
         return symbol
 
     return types.CPointer(types.float32)(), generate
+
+
+if config.DISABLE_JIT:  # type: ignore[attr-defined]
+    _doubles = _table.astype(np.float64)
+
+    def _data() -> NDArray:
+        return _doubles
+
+else:
+
+    @compiled(inline="always")
+    def _data() -> NDArray:
+        return carray(_table_pointer(), (SIZE,))  # type: ignore[call-arg]
 
 
 @compiled(inline="always")
@@ -231,7 +244,7 @@ def exact_table(
     state_y *= factor
     state_w *= factor
 
-    data = carray(_table_pointer(), (SIZE,))  # type: ignore[call-arg]
+    data = _data()
     table = data[_COEFFICIENTS:]
     ratio = min(max(a / b, LEAST_RATIO), 1.0 / LEAST_RATIO)
     place = 0.5 * (math.log10(ratio) + 1.0)
