@@ -100,7 +100,8 @@ class Branch:
                     to the unit circle than the trivial one to 1
     multipliers     (points, k) Floquet multipliers by falling size, the trivial one left out and
                     those of free motion along the track
-    trivial_error   (points,) distance of the trivial multiplier from 1: an accuracy check
+    trivial_error   (points,) distance of the trivial multiplier from 1: an accuracy check; where
+                    simulated motion contradicts the multipliers, their distance from it
     folds           where the branch turns back, in the order of the points
     changes         other changes of stability
     hopf            (speed [m/s], frequency [Hz]) of the Hopf point it starts from, or None

@@ -40,7 +40,8 @@ class Multipliers:
     """What becomes of disturbances of an orbit over one period.
 
     values   (k,) complex, by falling size; the trivial and the neutral ones are left out
-    error    distance of the trivial multiplier from 1: so far the others may be off, too
+    error    distance of the trivial multiplier from 1: so far the others may be off, too; more
+             where simulated motion has shown them to be (see `measured_growth`)
     neutral  number of multipliers of free motion along the track
     """
 

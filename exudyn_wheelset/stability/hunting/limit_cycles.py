@@ -29,6 +29,7 @@ from exudyn_wheelset.stability.hunting.continuation import (
     hopf_start,
 )
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
+from exudyn_wheelset.stability.hunting.measured_growth import checked
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
 from exudyn_wheelset.stability.hunting.settled_branch import settled_branch
 from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
@@ -122,7 +123,8 @@ def gather(
     settings: ContinuationSettings,
     record: dict[str, Any],
 ) -> Branch:
-    """The Branch of a list of points."""
+    """The Branch of a list of points; stability near 1 is checked by simulated motion."""
+    points = [checked(system, point, settings.stability_margin) for point in points]
     indices = list(system.displacement_indices)
     names = [system.state_names[index] for index in indices]
     amplitudes = np.array([point.orbit.half_peak_to_peak()[indices] for point in points])
