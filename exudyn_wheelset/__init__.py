@@ -64,6 +64,7 @@ _PLACES = {
     "Layout": "track.layout",
     "Irregularity": "track.irregularity",
     "Spectrum": "track.spectra",
+    "basin": "stability.maps.basins",
     "contact_energy": "contact.wheelset_contact",
     "contact_forces": "contact.wheelset_contact",
     "contact_geometry": "geometry.rigid",

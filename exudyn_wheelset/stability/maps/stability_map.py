@@ -227,7 +227,8 @@ class _Maker:
         from exudyn_wheelset.stability.hunting.nonlinear import SEARCH
 
         found = []
-        for value in values:
+        # The ends of the range tell the speeds to look at, starts or not.
+        for value in sorted({*values, *self.limits}):
             system = self.family(value)
             points: list[CriticalPoint] = []
             for range_ in SEARCH if speeds is None else (speeds,):
@@ -259,7 +260,7 @@ class _Maker:
                 for value, _ in found
             ]
         self.speeds = float(speeds[0]), float(speeds[1])
-        return found
+        return [(value, points) for value, points in found if value in values]
 
     def _lateral(self, value: float, point: CriticalPoint) -> bool:
         return is_lateral(self.family(value), point.mode)
