@@ -29,13 +29,16 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset import catalogue
+from exudyn_wheelset import Motion, simulate
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import finished, run_script, script_parser
-from exudyn_wheelset.results.motion import Motion
+from exudyn_wheelset.front.vehicle_options import (
+    add_vehicle_options,
+    chosen_changes,
+    named_vehicle,
+)
 from exudyn_wheelset.results.running_safety import nadal_limit, sum_of_y_limit
-from exudyn_wheelset.systems.simulation import simulate
 from exudyn_wheelset.systems.steady_curve import SteadyCurve, steady_curve
 from exudyn_wheelset.track.layout import Curve, Layout, Straight, Transition
 
@@ -45,23 +48,14 @@ FLANGE = math.radians(70.0)
 
 def run(
     *, vehicle: str = "manchester_coach", radius: float = 300.0, cant: float = 0.12,
-    speed: float = 18.0, shape: str = "bloss", damping: float | None = None,
-    out: str | Path | None = None, progress: bool = False,
+    speed: float = 18.0, shape: str = "bloss", out: str | Path | None = None,
+    progress: bool = False, **changes: Any,
 ) -> dict[str, Any]:  # fmt: skip
-    """Everything the header names; radius, cant [m], speed [m/s], contact damping [s/m]."""
-    car = catalogue.vehicle(vehicle)
-    if damping is not None:
-        car = replace(car, contact=replace(car.contact, damping=damping))
+    """Everything the header names; radius, cant [m], speed [m/s]; changes: `catalogue.Changes`."""
+    car = named_vehicle(vehicle, **changes)
     curve = steady_curve(car, radius, cant, speed)
-    layout = Layout(
-        [
-            Straight(STRAIGHT),
-            Transition(TRANSITION, shape),
-            Curve(radius, CURVE, cant),
-            Transition(TRANSITION, shape),
-            Straight(STRAIGHT),
-        ]
-    )
+    ends = [Straight(STRAIGHT), Transition(TRANSITION, shape)]
+    layout = Layout([*ends, Curve(radius, CURVE, cant), *reversed(ends)])
     on_line = car.on(replace(car.track, layout=layout))
     motion = simulate(on_line, speed, (layout.length - 15.0) / speed, progress=progress)
     friction = car.contact.friction
@@ -135,20 +129,19 @@ def _show(numbers: dict[str, Any]) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
-    names = ("vehicle", "radius", "cant", "speed", "shape", "damping")
     out = None if arguments.json else arguments.out
-    given = {name: getattr(arguments, name) for name in names}
+    given = {name: getattr(arguments, name) for name in ("radius", "cant", "speed", "shape")}
+    given |= {"vehicle": arguments.vehicle, **chosen_changes(arguments)}
     return run(out=out, progress=not arguments.json, **given)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser("A coach through a curve.", settings=False)
-    parser.add_argument("--vehicle", default="manchester_coach", help="name in the catalogue")
+    add_vehicle_options(parser, "manchester_coach")
     parser.add_argument("--radius", type=float, default=300.0, help="[m], positive to the left")
     parser.add_argument("--cant", type=float, default=0.12, help="of the outer rail [m]")
     parser.add_argument("--speed", type=float, default=18.0, help="[m/s]")
     parser.add_argument("--shape", default="bloss", help="of the transitions")
-    parser.add_argument("--damping", type=float, help="of the contact [s/m]")
     return run_script(_run, parser, argv, _show)
 
 

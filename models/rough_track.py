@@ -28,15 +28,18 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset import catalogue
+from exudyn_wheelset import Motion, simulate
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import finished, run_script, script_parser
+from exudyn_wheelset.front.vehicle_options import (
+    add_vehicle_options,
+    chosen_changes,
+    named_vehicle,
+)
 from exudyn_wheelset.results.comfort import mean_comfort, sperling
 from exudyn_wheelset.results.en14363 import PERCENTILES, low_pass
-from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.running_safety import sum_of_y_limit
-from exudyn_wheelset.systems.simulation import simulate
 from exudyn_wheelset.track.irregularity import Irregularity
 
 SPEEDS = (60.0, 160.0)  # [km/h]
@@ -45,11 +48,11 @@ BODY = "body"
 
 def run(
     *, vehicle: str = "manchester_coach", spectrum: str = "ERRI B176 low", seed: int = 1,
-    duration: float = 12.0, speeds: Sequence[float] = SPEEDS, creep: str | None = None,
-    out: str | Path | None = None, progress: bool = False,
+    duration: float = 12.0, speeds: Sequence[float] = SPEEDS, out: str | Path | None = None,
+    progress: bool = False, **changes: Any,
 ) -> dict[str, Any]:  # fmt: skip
-    """Everything the header names; duration [s], speeds [km/h]."""
-    car = catalogue.vehicle(vehicle) if creep is None else catalogue.vehicle(vehicle, creep=creep)
+    """Everything the header names; duration [s], speeds [km/h]; changes: `catalogue.Changes`."""
+    car = named_vehicle(vehicle, **changes)
     length = max(speeds) / 3.6 * duration + 40.0
     rough = Irregularity.from_psd(spectrum, seed, length=length)
     car = car.on(replace(car.track, irregularity=rough))
@@ -120,19 +123,18 @@ def _show(numbers: dict[str, Any]) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
-    names = ("vehicle", "spectrum", "seed", "duration", "creep")
     out = None if arguments.json else arguments.out
-    given = {name: getattr(arguments, name) for name in names}
+    given = {name: getattr(arguments, name) for name in ("spectrum", "seed", "duration")}
+    given |= {"vehicle": arguments.vehicle, **chosen_changes(arguments)}
     return run(out=out, progress=not arguments.json, **given)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser("A coach on rough straight track.", settings=False)
-    parser.add_argument("--vehicle", default="manchester_coach", help="name in the catalogue")
+    add_vehicle_options(parser, "manchester_coach")
     parser.add_argument("--spectrum", default="ERRI B176 low", help="of the track")
     parser.add_argument("--seed", type=int, default=1, help="of the random phases")
     parser.add_argument("--duration", type=float, default=12.0, help="of each run [s]")
-    parser.add_argument("--creep", help="creep law")
     return run_script(_run, parser, argv, _show)
 
 

@@ -20,6 +20,7 @@ from exudyn_wheelset.catalogue.by_name import entry, vehicle
 from exudyn_wheelset.front.diagrams import diagram_figure, draw_diagram
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.diagram import (
@@ -38,6 +39,8 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 
 NORMAL = "hertz"
+# Whether data files of earlier runs are taken as they are.
+KEPT = False
 LAWS = ("polach", "shen-hedrick-elkins", "fastsim")
 # Flange impacts are taken up in one blow, as on a track with ballast (catalogue/by_name.py).
 DAMPING = 10.0
@@ -51,19 +54,27 @@ INFLUENCES = (
 )
 
 
-def branch_of(
-    folder: Path, name: str, span: tuple[float, float], points: int = 90, **changes: Any
-) -> tuple[ExudynSystem, CriticalPoint, Branch]:
-    """System, first Hopf point and branch inside `span` (in Hopf speeds), kept in `folder`."""
-    begun = time.perf_counter()
+def model_of(name: str, **changes: Any) -> tuple[ExudynSystem, CriticalPoint]:
+    """System and first Hopf point of a vehicle of the catalogue, on Hertzian contact."""
     model = vehicle(name, **changes)
     system = replace(model, contact={**model.contact, "normal": NORMAL}).dynamic_system()
-    hopf = hopf_points(system, *entry(name).searched)[0]
+    return system, hopf_points(system, *entry(name).searched)[0]
+
+
+def branch_of(
+    folder: Path, name: str, span: tuple[float, float], points: int = 90, **changes: Any
+) -> Branch:
+    """Branch inside `span` (in Hopf speeds), kept in `folder`; that of an earlier run if kept."""
+    stem = "_".join([name, *(f"{key}_{value}" for key, value in changes.items())])
+    path = folder / f"{stem}.npz"
+    if KEPT and path.exists():
+        return Branch.load(path)
+    begun = time.perf_counter()
+    system, hopf = model_of(name, **changes)
     speeds = (span[0] * hopf.speed, span[1] * hopf.speed)
     about = {"vehicle": name, "options": changes}
     branch = branch_from(system, hopf, speeds, about=about, maximum_points=points)
-    stem = "_".join([name, *(f"{key}_{value}" for key, value in changes.items())])
-    branch.save(folder / f"{stem}.npz")
+    branch.save(path)
     folds = ", ".join(f"{fold.speed:.2f} ({fold.side})" for fold in branch.folds) or "none"
     lowest = f"{branch.lowest_stable()[0]:.2f}" if np.any(branch.stable) else "none"
     print(
@@ -71,17 +82,29 @@ def branch_of(
         f"{len(branch)} orbits; {time.perf_counter() - begun:.0f} s; {branch.reason}",
         flush=True,
     )
-    return system, hopf, branch
+    return branch
 
 
-def descent_of(folder: Path, name: str, system: ExudynSystem, hopf: CriticalPoint) -> Descent:
-    """Descent from 1.1 Hopf speeds in steps of 1 %, kept in `folder`."""
+def descent_of(folder: Path, name: str, branch: Branch, **changes: Any) -> Descent:
+    """Descent from 1.1 Hopf speeds in steps of 1 %, kept in `folder`; an earlier one if kept."""
+    path = folder / f"{name}_descent.npz"
+    if KEPT and path.exists():
+        return Descent.load(path)
     begun = time.perf_counter()
+    system, hopf = model_of(name, **changes)
     # Flange impacts at 14 Hz want finer steps than the default: 161.0 m/s becomes 164.8 m/s.
     system.runner.step = min(system.step, 1.0 / (250.0 * hopf.frequency))
     high, low = 1.1 * hopf.speed, 0.6 * hopf.speed
-    descent = quasi_static_descent(system, high, low, step=0.01 * hopf.speed, disturbance=10.0)
-    descent.save(folder / f"{name}_descent.npz")
+    step = 0.01 * hopf.speed
+    descent = quasi_static_descent(system, high, low, step=step, disturbance=10.0)
+    if descent.outcome.ending is Ending.CONTACT_LOST:
+        # Set 3: a push at that speed lifts a wheel. It begins on a cycle at the flange, lower.
+        high = 1.02 * hopf.speed
+        flange = np.flatnonzero(branch.amplitude["y"] > 10.5e-3)
+        orbit = branch.orbits[flange[np.argmin(np.abs(branch.speed[flange] - high))]]
+        state = system.carry_over(orbit.states[0], orbit.speed, high)
+        descent = quasi_static_descent(system, high, low, step=step, state=state)
+    descent.save(path)
     print(f"{name}: {descent.reason}; {time.perf_counter() - begun:.0f} s", flush=True)
     return descent
 
@@ -94,17 +117,16 @@ def sets(folder: Path) -> None:
         branches = []
         for law in ("polach", "fastsim"):
             changes: dict[str, Any] = {"creep": law, "damping": DAMPING}
-            system, hopf, branch = branch_of(folder, f"paper-{k}", SPANS[k], **changes)
-            branches.append(branch)
+            branches.append(branch_of(folder, f"paper-{k}", SPANS[k], **changes))
             if law == "polach":
-                descent = descent_of(folder, f"paper-{k}", system, hopf)
+                descent = descent_of(folder, f"paper-{k}", branches[0], **changes)
         shown = Diagram(branches, [descent])
         draw_diagram(whole, shown, ["C0", "C2"], ["polach", "fastsim"], notes=False)
         whole.set_ylim(0.0, 14.0)
         whole.set_title(f"set {k}", fontsize=10)
         whole.set_xlabel("")
         for index, law in enumerate(LAWS):
-            branch = branch_of(folder, f"paper-{k}", (0.97, 1.03), 26, creep=law)[2]
+            branch = branch_of(folder, f"paper-{k}", (0.97, 1.03), 26, creep=law)
             y = 1e3 * branch.amplitude["y"]
             before = y < 10.0
             small.plot(
@@ -117,7 +139,7 @@ def sets(folder: Path) -> None:
         small.set_xlim(-0.75, 0.75)
         small.set_xlabel("speed beyond that of the smallest orbit [%]")
         small.set_ylabel("y, half of peak to peak [mm]")
-        small.legend(fontsize=8, frameon=False, loc="lower left")
+        small.legend(fontsize=7, frameon=False, loc="lower left")
     write_figure(HERE / "hunting_paper_sets.png", figure)
 
 
@@ -134,7 +156,7 @@ def influences(folder: Path) -> None:
             changes: dict[str, Any] = {} if place == 1 else {option: value}
             branch = branch_of(
                 folder, "paper-2", (0.7, 1.15), creep="fastsim", damping=DAMPING, **changes
-            )[2]
+            )
             branches.append(branch)
             known = branch if place == 1 else known
         labels = [words.format(value) for value in values]
@@ -146,7 +168,8 @@ def influences(folder: Path) -> None:
 
 def s1002(folder: Path) -> None:
     """S1002 on UIC60: continuation, descent and disturbance runs on one figure."""
-    system, hopf, branch = branch_of(folder, "s1002", RANGE, 200)
+    branch = branch_of(folder, "s1002", RANGE, 200)
+    system, hopf = model_of("s1002")
     largest = 1.05 * float(branch.amplitude["y"].max())
     high = RANGE[1] * hopf.speed
     start = system.equilibrium(high) + largest * mode_at_peak(system, hopf)
@@ -179,9 +202,7 @@ def small(folder: Path) -> None:
     for law in LAWS:
         cells = []
         for k in (1, 2, 3):
-            model = vehicle(f"paper-{k}", creep=law)
-            system = replace(model, contact={**model.contact, "normal": NORMAL}).dynamic_system()
-            hopf = hopf_points(system, *entry(f"paper-{k}").searched)[0]
+            system, hopf = model_of(f"paper-{k}", creep=law)
             span = (0.97 * hopf.speed, 1.03 * hopf.speed)
             branch = branch_from(system, hopf, span, maximum_points=2)
             cells.append(f"{hopf.speed:.3f}, {branch.speed[0]:.3f}")
@@ -193,7 +214,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("parts", nargs="*", help=f"of {', '.join(makers)}; all if left out")
     parser.add_argument("--data", type=Path, default=REPOSITORY / "runs" / "out" / "hunting")
+    parser.add_argument("--kept", action="store_true", help="take data files that are there")
     arguments = parser.parse_args()
+    global KEPT
+    KEPT = arguments.kept
     begun = time.perf_counter()
     for part in arguments.parts or makers:
         if part not in makers:
