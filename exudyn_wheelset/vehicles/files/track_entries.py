@@ -3,7 +3,7 @@
 layout = "line.toml"            a file of `write_layout`, beside the vehicle file, or
 [track.layout]                  base, rounding, gradient as in Layout
 [[track.layout.element]]        kind = "straight", "transition" or "curve", and its fields
-[track.irregularity]            file = "..." of Irregularity.save, or name and
+[track.irregularity]            file = "rough.csv" (Irregularity.load), or name and
 points = [[s, ly, lz, ry, rz]]  distance and the shifts of the left and the right rail [m]
 """
 

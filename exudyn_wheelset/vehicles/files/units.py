@@ -10,12 +10,16 @@ Bounds, with the widest of what is built:
     moments of inertia       the least at least 1/1000 of the largest (a rod 2 m long, 0.1 m thick:
                              1/270; a car body 1/35)
     radius of a wheel        0.1 (roller rigs) to 1 m
-    places                   |y| up to 4 m, |x| up to 60 m, z from -1 to 10 m; centres from 0.1 m up
-    stiffness                1e4 (lateral, of an air spring: 1e5) to 1e10 N/m; damping 20 (a rubber
-                             block: 1e3) to 1e7 N s/m; zero is free
-    play, gap                up to 0.5 m; forces up to 3 times the vehicle's weight
-    table                    up to 1 m or 5 m/s; relaxation of a damper in series up to 1 s
-    friction                 0.01 to 1.5; zero is free
+    places                   |y| up to 4 m, |x| up to 60 m, z from -1 to 10 m, not within 5 cm of
+                             the rail tops but for 0; centres from 0.1 m up
+    stiffness                1e4 (lateral, of an air spring: 1e5) to 1e9 N/m (the contact of wheel
+                             and rail), of faces that press to 1e10; damping 100 (a rubber block:
+                             1e3) to 1e7 N s/m; zero is free
+    play, gap                0.1 mm to 0.5 m, zero is free; forces up to 3 times the weight
+    pressing force           from 100 N up; radius of a plate from 3 cm up
+    table                    1 mm to 1 m or 0.01 to 5 m/s; relaxation in series up to 1 s
+    friction                 0.01 (of an element 0.002) to 1.5, zero is free
+    inclination              from 1/1000, zero is free
     sinking under the load   1 m (balance.py)
 
 Every part must be tied to the others.
@@ -34,9 +38,10 @@ from exudyn_wheelset.vehicles.description import GROUND, Axle, Connection, Vehic
 from exudyn_wheelset.vehicles.elements.protocol import Law
 from exudyn_wheelset.vehicles.struts import struts_of
 
-_SOFTEST, _STIFFEST = 1.0e4, 1.0e10
-_LIGHTEST_DAMPING, _HEAVIEST_DAMPING = 20.0, 1.0e7
-_WIDEST_WAY = 0.5
+_SOFTEST, _STIFFEST = 1.0e4, 1.0e9
+_LIGHTEST_DAMPING, _HEAVIEST_DAMPING = 100.0, 1.0e7
+_SHORTEST_WAY, _WIDEST_WAY = 1.0e-4, 0.5
+_LEAST_PRESSURE = 100.0
 _GREATEST_FORCE = 3.0
 _FASTEST = 5.0
 _LONGEST_RELAXATION = 1.0
@@ -97,6 +102,7 @@ def check_axle(axle: Axle) -> None:
 def _check_track(vehicle: Vehicle) -> None:
     track, contact = vehicle.track, vehicle.contact
     _within("track", "", "gauge_depth", track.gauge_depth, 1e-3, 0.05, "m")
+    _within("track", "", "inclination", abs(track.inclination), 1e-3, 0.2, "-")
     _within("contact", "", "friction", contact.friction, 0.01, 1.5, "-")
     _within("contact", "", "shear_modulus", contact.shear_modulus, 1e9, 1e12, "Pa")
     _within("contact", "", "poisson", contact.poisson, 0.05, 0.5, "-")
@@ -151,14 +157,14 @@ def _check_ways(one: Connection, law: Law, greatest: float) -> None:
     """Play, gaps and tables of displacement, forces of friction."""
     if law.stop is not None:
         way, force = law.stop.points[-1]
-        _within("connection", one.name, "table", way, 0.0, 2.0 * _WIDEST_WAY, "m")
+        _within("connection", one.name, "table", way, 1e-3, 2.0 * _WIDEST_WAY, "m")
         _within("connection", one.name, "table", force, 0.0, 100.0 * greatest, "N")
     if law.blow_off is not None:
         # A damper in series has its table the other way round.
         force, speed = law.blow_off.points[-1]
         if law.state is None:
             force, speed = speed, force
-        _within("connection", one.name, "table", speed, 0.0, _FASTEST, "m/s")
+        _within("connection", one.name, "table", speed, 0.01, _FASTEST, "m/s")
         _within("connection", one.name, "table", force, 0.0, 100.0 * greatest, "N")
     if law.state is not None and law.stiffness[0] > 0.0:
         relaxation = law.damping[0] / law.stiffness[0]
@@ -174,13 +180,21 @@ def _check_ways(one: Connection, law: Law, greatest: float) -> None:
     friction = getattr(law, "friction", None)
     if friction is None:
         return
-    for key, value, unit in (
-        ("gap", friction.gap, "m"),
-        ("play", friction.play, "m"),
-        ("force", abs(friction.force), "N"),
+    for key, value, low, high, unit in (
+        ("gap", friction.gap, _SHORTEST_WAY, _WIDEST_WAY, "m"),
+        ("play", friction.play, _SHORTEST_WAY, _WIDEST_WAY, "m"),
+        ("radius", friction.radius, 0.03, 1.0, "m"),
+        ("stop", friction.stop, _SOFTEST, _STIFFEST, "N/m"),
+        ("stiffness", friction.stiffness, _SOFTEST, 10.0 * _STIFFEST, "N/m"),
+        (_named(one, "column_force", "force"), abs(friction.force), _LEAST_PRESSURE, greatest, "N"),
+        *(("friction", sliding.friction, 0.002, 1.5, "-") for sliding in friction.slidings),
     ):
-        high = greatest if unit == "N" else _WIDEST_WAY
-        _within("connection", one.name, key, value, 0.0, high, unit)
+        _within("connection", one.name, key, value, low, high, unit)
+
+
+def _named(one: Connection, *keys: str) -> str:
+    """The first of the keys that the element has."""
+    return next((key for key in keys if hasattr(one.element, key)), keys[-1])
 
 
 def _along(law: Law, which: int) -> Iterable[float]:
@@ -194,7 +208,8 @@ def _check_place(
     kind: str, name: str, key: str, place: tuple[float, float, float], lowest: float
 ) -> None:
     for value, low, high in zip(place, (-60.0, -4.0, lowest), (60.0, 4.0, 10.0), strict=True):
-        if not low <= value <= high:
+        on_rail = high == 10.0 and 0.0 < abs(value) < 0.05
+        if on_rail or not low <= value <= high:
             raise Implausible(
                 kind,
                 name,
