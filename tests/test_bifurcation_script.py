@@ -80,7 +80,7 @@ def test_changes_arrive_in_the_vehicle():
     assert lateral.parameters.friction == 0.2
     assert lateral.wheelset.wheel.slope(0.0) == pytest.approx(0.1, abs=1e-9)
     # The source: a friction of 0.15 goes with 10 kN a wheel.
-    bogie = vehicle("cooperrider", friction=0.3).bogie
+    bogie = vehicle("cooperrider", friction=0.3)
     assert bogie.friction_force == pytest.approx(20.0e3)
 
 
