@@ -3,11 +3,11 @@
     map = stability_map("cooperrider", "speed", "conicity", (0.02, 0.2))
     map.hopf[0].speed, map.folds[0].speed, map.regions.at(66.0, 0.05)
 
-At a few values of the number a whole diagram is made (Hopf points, the branch of limit cycles from
-the first of them, its folds). Each of its Hopf points and folds that lies on no curve yet begins
-one, which is followed both ways to the ends of the range, through cusps and into Bautin points. A
-fold curve that begins and ends between those values without passing one is not found: give more
-`starts`.
+At a few values of the number, the `starts`, a diagram is made (Hopf points, the branch of limit
+cycles from the first of them, its folds); Hopf points are looked for at both ends too. Each Hopf
+point and each fold that lies on no curve yet begins one, which is followed both ways to the ends of
+the range, through cusps and into Bautin points. A fold curve that begins and ends between those
+values without passing one is not found: give more `starts`.
 """
 
 from __future__ import annotations
@@ -190,7 +190,8 @@ def stability_map(
         remarks = made.remarks
         fold_curves: list[Curve] = []
         if folds:
-            fold_curves = made.fold_curves(found, points, most, intervals, settings, bar)
+            begun_at = [(value, points_) for value, points_ in found if value in values]
+            fold_curves = made.fold_curves(begun_at, points, most, intervals, settings, bar)
     record = describe(
         made.family(values[len(values) // 2]),
         "stability map",
@@ -223,7 +224,7 @@ class _Maker:
     def hopf_starts(
         self, values: list[float], speeds: tuple[float, float] | None
     ) -> list[tuple[float, list[CriticalPoint]]]:
-        """Hopf points of lateral modes at each start."""
+        """Hopf points of lateral modes at each start and at both ends of the range."""
         from exudyn_wheelset.stability.hunting.nonlinear import SEARCH
 
         found = []
@@ -260,7 +261,7 @@ class _Maker:
                 for value, _ in found
             ]
         self.speeds = float(speeds[0]), float(speeds[1])
-        return [(value, points) for value, points in found if value in values]
+        return found
 
     def _lateral(self, value: float, point: CriticalPoint) -> bool:
         return is_lateral(self.family(value), point.mode)

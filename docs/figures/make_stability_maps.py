@@ -1,0 +1,48 @@
+"""Figures of docs/stability-maps.md: maps of the bogie and the S1002 wheelset, a tornado diagram.
+
+Some five minutes. `python docs/figures/make_stability_maps.py`
+"""
+
+from pathlib import Path
+
+from exudyn_wheelset import nonlinear_critical_speed, stability_map
+from exudyn_wheelset.front.output import write_figure
+from exudyn_wheelset.front.plots import new_figure
+
+PLACE = Path(__file__).parent
+
+
+def draw_maps(conicity, friction, gauge) -> None:
+    """Three maps side by side."""
+    figure, axes = new_figure(13.0, 4.2, 1, 3)
+    for ax, found, title in zip(
+        axes[0],
+        (conicity, friction, gauge),
+        ("Cooperrider's bogie", "Cooperrider's bogie", "S1002 wheelset on UIC60 1:40"),
+        strict=True,
+    ):
+        found.plot(ax)
+        ax.set_title(title, fontsize=10)
+    axes[0, 0].set_ylim(25.0, 120.0)
+    write_figure(PLACE / "stability_maps.png", figure)
+
+
+def draw_tornado(gradient) -> None:
+    """What moves the fold of the bogie."""
+    figure, axes = new_figure(7.5, 4.2)
+    gradient.plot(axes[0, 0], most=12)
+    write_figure(PLACE / "tornado_bogie.png", figure)
+
+
+def main() -> None:
+    """Make all figures."""
+    draw_maps(
+        stability_map("cooperrider", "speed", "conicity", (0.02, 0.2)),
+        stability_map("cooperrider", "speed", "friction", (0.05, 0.4)),
+        stability_map("s1002", "speed", "gauge", (1.4335, 1.4365), starts=1, points=12),
+    )
+    draw_tornado(nonlinear_critical_speed("cooperrider", check=False).gradient())
+
+
+if __name__ == "__main__":
+    main()
