@@ -61,7 +61,7 @@ from exudyn_wheelset.contact.gap_spline import average
 MISFIT = 0.062
 # The step after one of this size, relative, is about its square: forces are right to 2e-6, those
 # of two loads that share a lobe, which a step changes by more, to 1e-6.
-ALONE, TOLERANCE = 1.2e-3, 2.0e-4
+ALONE, TOLERANCE = 1.2e-3, 2.0e-5
 MOST_STEPS = 40
 
 

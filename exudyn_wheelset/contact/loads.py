@@ -29,7 +29,7 @@ OVERLAP = 0.33
 # depth deep, and two from MERGED_UP_TO on.
 MERGED_FROM, MERGED_UP_TO = 0.03, 0.2
 # s' of equation (2) over the gain: 0 up to NOTHING, from STEEP to BACK STEEPNESS, 1 from WHOLE on,
-# straight between; STEEPNESS so that s = g at WHOLE.
+# without a step in s'' between; STEEPNESS so that s = g at WHOLE.
 NOTHING, STEEP, BACK, WHOLE = 6.0e-3, 1.2e-2, 5.0e-2, 6.0e-2
 STEEPNESS = (WHOLE + BACK) / (WHOLE + BACK - STEEP - NOTHING)
 
@@ -178,23 +178,28 @@ def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, wo
     two.lobe = one.lobe
 
 
+@compiled(inline="always")
+def _ramp(x):
+    """From 0 to 1 without a step in the slope, and its integral from 0."""
+    square = x * x
+    return square * (3.0 - 2.0 * x), square * x * (1.0 - 0.5 * x)
+
+
 @compiled
 def blend(gain):
     """s(g) and its derivative, equation (2)."""
     if gain <= NOTHING:
         return 0.0, 0.0
     if gain < STEEP:
-        x = gain - NOTHING
-        rate = STEEPNESS / (STEEP - NOTHING)
-        return 0.5 * rate * x * x, rate * x
+        rate, s = _ramp((gain - NOTHING) / (STEEP - NOTHING))
+        return STEEPNESS * (STEEP - NOTHING) * s, STEEPNESS * rate
     if gain >= WHOLE:
         return gain, 1.0
     s = STEEPNESS * (gain - 0.5 * (STEEP + NOTHING))
     if gain < BACK:
         return s, STEEPNESS
-    x = gain - BACK
-    rate = (STEEPNESS - 1.0) / (WHOLE - BACK)
-    return s - 0.5 * rate * x * x, STEEPNESS - rate * x
+    rate, less = _ramp((gain - BACK) / (WHOLE - BACK))
+    return s - (STEEPNESS - 1.0) * (WHOLE - BACK) * less, STEEPNESS - (STEEPNESS - 1.0) * rate
 
 
 @compiled
@@ -283,7 +288,10 @@ def _valley(table, side, lobes, loads, count, axle, work):
     x = (least - MERGED_FROM) / (MERGED_UP_TO - MERGED_FROM)
     if x <= 0.0:
         return pair, 0.0, 0.0
-    return pair, x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / (MERGED_UP_TO - MERGED_FROM)
+    square = x * x
+    rest = 1.0 - x
+    slope = 30.0 * square * rest * rest / (MERGED_UP_TO - MERGED_FROM)
+    return pair, square * x * (10.0 - 15.0 * x + 6.0 * square), slope
 
 
 @compiled
