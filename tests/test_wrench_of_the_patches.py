@@ -48,14 +48,15 @@ def test_force_and_moment_are_those_of_the_patches(shift, yaw, creep, damping):
     found, _, _ = contact(shift, yaw, creep, 3, damping)
     assert found.left and found.right
     force, moment = np.zeros(3), np.zeros(3)
-    for patch in [*found.left, *found.right]:
+    sides = [(1.0, patch) for patch in found.left] + [(-1.0, patch) for patch in found.right]
+    for hand, patch in sides:
         normal, place = np.array(patch.normal), np.array(patch.position)
         assert np.linalg.norm(normal) == pytest.approx(1.0, abs=1e-12)
         along = np.array([1.0, 0.0, 0.0])
         on_wheel = patch.normal_force * normal + patch.fx * along
         on_wheel += patch.fy * np.cross(normal, along)
         force += on_wheel
-        moment += np.cross(place, on_wheel) + patch.mz * normal
+        moment += np.cross(place, on_wheel) + (patch.mz + hand * patch.twist) * normal
     size = np.abs(force).max()
     np.testing.assert_allclose(found.force, force, atol=1e-9 * size)
     np.testing.assert_allclose(found.moment, moment, atol=1e-9 * size)

@@ -31,9 +31,9 @@ from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 
 MOST_LOBES = 4
 # A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic (energy.py);
-# while that one comes or goes, and while lobes merge, up to three sets are patches.
+# while lobes merge, what they become stands beside them.
 MOST_ELLIPSES = MOST_LOBES + 1
-MOST_PATCHES = 2 * MOST_LOBES + MOST_ELLIPSES - 1
+MOST_PATCHES = 2 * MOST_LOBES
 MOST_LINES = 640
 STRIPS_A_LOBE = 20
 MOST_NODES = 320
@@ -174,6 +174,14 @@ LOAD = _record(
 RANGE = _record(("first", "i8"), ("last", "i8"))
 # A set of loads: how many, the energy [J] and the weight of its forces.
 SET = _record(("count", "i8"), ("energy", "f8"), ("weight", "f8"))
+# The loads of a lobe together: force [N], its sums of place (from the lobe's foot), of second
+# moments, a^2, depth and energy; weight of their sets, with it the peak pressure [Pa]; the lines
+# on which they press, first to before end, and the cells of their range.
+WHOLE = _record(
+    ("count", "i8"), ("force", "f8"), ("place", "f8"), ("second", "f8"), ("along", "f8"),
+    ("depth", "f8"), ("energy", "f8"), ("weight", "f8"), ("peak", "f8"),
+    ("first", "i8"), ("end", "i8"), ("low", "i8"), ("high", "i8"),
+)  # fmt: skip
 # Lines of force of the separation x of two lobes: rail place, wheel arc and dx/dp.
 LINE = _numbers("place", "arc", "weight")
 COUPLING = _numbers(
@@ -188,7 +196,8 @@ WORK = _record(
     ("coupling", COUPLING), ("merging", LINE, (3,)), ("wrenches", "f8", (2, 5)),
     ("matrix", "f8", (3 * MOST_ELLIPSES, 3 * MOST_ELLIPSES + 1)),
     ("first_node", "i8"), ("final_node", "i8"), ("ranges", RANGE, (MOST_LOBES,)),
-    ("gap", "f8", (6, MOST_LINES)), ("parts", "f8", (2, MOST_LINES)),
+    ("gap", "f8", (6, MOST_LINES)), ("parts", "f8", (3, MOST_LINES)),
+    ("whole", WHOLE),
 )  # fmt: skip
 RESULT = _record(
     ("force", "f8", (3,)), ("moment", "f8", (3,)),

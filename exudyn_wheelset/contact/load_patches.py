@@ -1,13 +1,15 @@
-"""Patches of one wheel by the stored energy: each load's wrench, ellipse and place.
+"""Patches of one wheel by the stored energy: each lobe's wrench, ellipse and place.
 
 The rails push the wheel along the lines of the grid that a load covers (gap.py), a wrench with
 a force F in the y-z plane and a moment M about the axle's centre. It is that of |F| along n = F/|F|
-at a point of its central axis and of a moment M.n about n, the load's twist: with yaw the lines of
+at a point of its central axis and of a moment M.n about n, the patch's twist: with yaw the lines of
 a throat or flange patch lie at different leads and point different ways. The point is taken where
-the axis passes the wheel at the load's middle.
+the axis passes the wheel.
 
-While a second load in a lobe comes or goes (energy.py), patches of both sets are there, each with
-the weight of its forces; what a weight below zero takes, the others' patches give.
+The loads of a lobe, with the weights of their sets (energy.py), are one patch: the sum of their
+forces, and for the creep law the ellipse of their second moments, b^2/5 about the mean place, and
+of their mean a^2. So a second load comes and goes without a change in the number of patches. While
+two lobes merge, the one patch that they become stands beside them with its weight.
 
 Frame: track frame, left side. Records LOAD, SHARE, PATCH: layout.py.
 """
@@ -24,57 +26,108 @@ from exudyn_wheelset.contact.locus import wheel_point
 
 
 @compiled
-def _wrench(table, side, load, axle, work, wrench):
-    """Fill force (y, z) and moment of a load."""
-    first, count = line_weights(load, side.line_start, 1.0 / side.line_spacing, work)
-    parts = work.parts[0, :count]
-    push_on_lines(table, side, first, parts, axle, work.gap, wrench)
-    wrench *= load.force
-
-
-@compiled
-def _arc_in_the_middle(side, load, gap):
-    """The wheel's arc length at the load's place."""
-    at = (load.place - side.line_start) / side.line_spacing
-    at = at if load.low < at < load.high else 0.5 * (load.low + load.high)
+def _arc_at(side, place, low, high, gap):
+    """The wheel's arc length at a place of the rail where p has been sampled."""
+    at = (place - side.line_start) / side.line_spacing
+    at = at if low < at < high else 0.5 * (low + high)
     k = int(at)
     arcs = gap[GAP_ARC]
     return arcs[k] + (at - k) * (arcs[k + 1] - arcs[k])
 
 
 @compiled
-def _fill_patch(table, side, load, arc, weight, wrench, axle, patch, share):
+def _add_load(side, load, weight, foot, work):
+    """Add a load with its weight to `work.whole` and to the parts of the lines."""
+    whole = work.whole
+    force = weight * load.force
+    place = load.place - foot
+    first, count = line_weights(load, side.line_start, 1.0 / side.line_spacing, work)
+    parts = work.parts[0]
+    summed = work.parts[2]
+    if whole.count == 0:
+        whole.first = first
+        whole.end = first
+    if first < whole.first:
+        summed[first : whole.first] = 0.0
+        whole.first = first
+    if first + count > whole.end:
+        summed[whole.end : first + count] = 0.0
+        whole.end = first + count
+    for k in range(count):
+        summed[first + k] += force * parts[k]
+    whole.count += 1
+    whole.force += force
+    whole.place += force * place
+    whole.second += force * (place * place + 0.2 * load.b * load.b)
+    whole.along += force * load.a * load.a
+    whole.depth += force * (load.average + 0.2 * load.width)
+    whole.energy += force * max(load.average - load.work - 0.5 * load.sunk, 0.0)
+    whole.low = load.low
+    whole.high = load.high
+
+
+@compiled
+def _add_lobe(side, first_set, last_set, k, work):
+    """Fill `work.whole` with the loads of lobe k in some sets."""
+    whole = work.whole
+    whole.count = 0
+    whole.force = whole.place = whole.second = whole.along = whole.depth = whole.energy = 0.0
+    whole.weight = whole.peak = 0.0
+    foot = work.lobes[k].foot
+    for m in range(first_set, last_set + 1):
+        weight = work.sets[m].weight
+        if weight == 0.0:
+            continue
+        peak = 0.0
+        for j in range(work.sets[m].count):
+            load = work.loads[m, j]
+            if load.lobe == k:
+                _add_load(side, load, weight, foot, work)
+                peak = max(peak, 1.5 * load.force / (math.pi * load.a * load.b))
+        if peak > 0.0:
+            whole.weight += weight
+            whole.peak += weight * peak
+
+
+@compiled
+def _fill_patch(table, side, whole, foot, separation, wrench, axle, gap, patch, share):
     fy, fz, mx, my, mz = wrench[0], wrench[1], wrench[2], wrench[3], wrench[4]
     square = fy * fy + fz * fz
     force = math.sqrt(square)
     ny = fy / force
     nz = fz / force
-    _, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, arc, axle)
+    mean = whole.place / whole.force
+    arc = _arc_at(side, foot + mean, whole.low, whole.high, gap)
     x = (fy * mz - fz * my) / square
     y = fz * mx / square
     z = -fy * mx / square
+    _, py, pz, _, _, _, _, _ = wheel_point(table, side, arc, axle)
+    arc += nz * (axle.y + y - py) - ny * (axle.z + z - pz)
+    _, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, arc, axle)
     along = ny * (py - axle.y - y) + nz * (pz - axle.z - z)
-    rail_y, _, _, _, _, _ = curve_point(table, side.rail, load.place)
+    rail_y, _, _, _, _, _ = curve_point(table, side.rail, foot + mean)
+    a = math.sqrt(whole.along / whole.force)
+    b = math.sqrt(5.0 * max(whole.second / whole.force - mean * mean, 1.0e-12))
     patch.wheel_y = wheel_y
     patch.rail_y = rail_y - side.datum
     patch.angle = math.atan2(-ny, nz)
     patch.radius = radius
     patch.normal_force = force
     patch.twist = my * ny + mz * nz
-    patch.a = load.a
-    patch.b = weight * load.b
-    patch.penetration = load.average + 0.2 * load.width
+    patch.a = a
+    patch.b = separation * b
+    patch.penetration = whole.depth / whole.force
     patch.position[0] = x
     patch.position[1] = y + along * ny
     patch.position[2] = z + along * nz
     patch.normal[1] = ny
     patch.normal[2] = nz
-    patch.energy = weight * load.force * max(load.average - load.work - 0.5 * load.sunk, 0.0)
-    patch.peak_pressure = 1.5 * force / (math.pi * load.a * weight * load.b)
-    share.own.force = force / weight
-    share.own.a = load.a
-    share.own.b = load.b
-    share.separation = weight
+    patch.energy = whole.energy
+    patch.peak_pressure = whole.peak / whole.weight
+    share.own.force = force / separation
+    share.own.a = a
+    share.own.b = b
+    share.separation = separation
     share.share = 0.0
 
 
@@ -96,6 +149,7 @@ def load_patches(table, side, found, axle, material, work, patches):
     modulus = material.shear_modulus / (1.0 - material.poisson)
     energy, by_q = side_loads(table, side, found, axle, modulus, work)
     sets = work.sets
+    whole = work.whole
     wrench = work.wrenches[0]
     spare = work.wrenches[1]
     spare[:] = 0.0
@@ -106,33 +160,40 @@ def load_patches(table, side, found, axle, material, work, patches):
             for _ in range(2):
                 _, _, _, arc = gap_on_normal(table, side, line.place, arc, axle)
             _add_line(table, side, line.place, arc, axle, by_q * line.weight, spare)
-    share = 0.0
+    forces = 0.0
     for m in range(3):
-        share += max(sets[m].weight, 0.0)
-        if sets[m].weight < 0.0:
-            for k in range(sets[m].count):
-                _wrench(table, side, work.loads[m, k], axle, work, wrench)
-                spare += sets[m].weight * wrench
+        for k in range(sets[m].count):
+            forces += sets[m].weight * work.loads[m, k].force
+    weights = sets[0].weight + sets[1].weight + max(sets[2].weight, 0.0)
+    if sets[2].weight < 0.0:
+        # What a weight below zero takes, the others' patches give.
+        for k in range(found):
+            _add_lobe(side, 2, 2, k, work)
+            if whole.count > 0:
+                push_on_lines(
+                    table, side, whole.first, work.parts[2, whole.first : whole.end], axle,
+                    work.gap, wrench,
+                )  # fmt: skip
+                forces -= whole.force
+                spare += wrench
     kept = 0
     total = 0.0
-    for m in range(3):
-        weight = sets[m].weight
-        if weight <= 0.0:
-            continue
-        forces = 0.0
-        for k in range(sets[m].count):
-            forces += work.loads[m, k].force
-        for k in range(sets[m].count):
-            load = work.loads[m, k]
-            _wrench(table, side, load, axle, work, wrench)
-            arc = _arc_in_the_middle(side, load, work.gap)
-            wrench *= weight
-            wrench += weight / share * load.force / forces * spare
-            _fill_patch(
-                table, side, load, arc, weight / share, wrench, axle, patches[kept],
-                work.shares[kept],
+    for first in (0, 2):
+        for k in range(found):
+            _add_lobe(side, first, min(first + 1, 2), k, work)
+            if whole.count == 0 or whole.force <= 0.0 or whole.weight <= 0.0:
+                continue
+            push_on_lines(
+                table, side, whole.first, work.parts[2, whole.first : whole.end], axle, work.gap,
+                wrench,
             )  # fmt: skip
-            total += patches[kept].energy
+            for j in range(5):
+                wrench[j] += whole.force / forces * spare[j]
+            _fill_patch(
+                table, side, whole, work.lobes[k].foot, whole.weight / weights, wrench, axle,
+                work.gap, patches[kept], work.shares[kept],
+            )  # fmt: skip
+            total += whole.energy
             kept += 1
     # What the sum of weighted energies leaves of the whole, some thousandths, goes to all alike.
     for k in range(kept):
