@@ -95,9 +95,9 @@ def test_a_flange_climbs_above_nadals_limit(friction):
     The flank of S1002 has 70 degrees. The right wheel, on its tread, slips sideways and adds mu
     times its load to the push: at the limit push = (Nadal - mu) load/2. Nadal's friction points
     straight up the flank; here slip is never quite full and some of it is along the rail, so his
-    limit is a lower one, reached from above as the angle of attack grows. With the normal force
-    that is a gradient: where it jumps from place to place the wheel hops on the flank, and when
-    it climbs is chance within some per cent.
+    limit is a lower one, reached from above as the angle of attack grows: twice the angle leaves
+    less than half of what is missing of full slip. With contact damping enough that the wheel does
+    not hop on the flank, where it would climb by chance; four times as much changes nothing.
     """
     tangent = np.tan(np.radians(70.0))
     nadal = (tangent - friction) / (1.0 + friction * tangent)
@@ -106,15 +106,15 @@ def test_a_flange_climbs_above_nadals_limit(friction):
     for yaw in (0.03, 0.06):
         model = build(
             push_rate=30e3, yaw=yaw, friction=friction, creep="shen-hedrick-elkins", gravity=0.0,
-            normal="energy",
+            normal="energy", damping=5.0,
         )  # fmt: skip
         outcome, place, time = run(model[1], 4.0)
         assert outcome.ending is Ending.WHEEL_CLIMB
         assert place[2] > 0.014
         assert place[4] > 0
         pushes.append(30e3 * time)
-    assert limit < pushes[1] < pushes[0]
-    assert pushes[1] < 1.06 * limit
+    assert limit < pushes[1] < 1.15 * limit
+    assert pushes[1] - limit < 0.5 * (pushes[0] - limit)
 
 
 def test_a_wheelset_beside_its_track_is_off_at_once():

@@ -348,8 +348,14 @@ def side_loads(table, side, found, axle, modulus, work):
         sample_lobes(table, side, work.lobes, found, low, axle, work)
         energy, by_q = _weighted_sets(table, side, found, axle, modulus, work)
         if _covered(side, work):
-            break
-    return energy, by_q
+            return energy, by_q
+    for m in range(3):
+        work.sets[m].count = 0
+        work.sets[m].weight = 0.0
+    load = work.loads[0, 0]
+    work.sets[0].count = _deepest_alone(table, side, work.lobes, found, load, modulus, work)
+    work.sets[0].weight = 1.0
+    return load.force * (load.own - load.work), 0.0
 
 
 @compiled
