@@ -71,8 +71,7 @@ def _numbers(motion: Motion) -> dict[str, Any]:
     slow = low_pass(time, motion.Q)
     lateral = low_pass(time, motion.sum_of_y())
     _, means = motion.sliding_mean(np.abs(motion.sum_of_y()))
-    body = motion.body(BODY)
-    x, y, z = (np.gradient(body[f"v{axis} [m/s]"], time) for axis in "xyz")
+    x, y, z = motion.acceleration(BODY).T
     axle_load = float(motion.static_loads().sum(axis=1).mean())
     return {
         "y_mm": 1e3 * float(np.sqrt(np.mean(motion.y[:, 0] ** 2))),

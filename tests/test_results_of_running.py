@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from exudyn_wheelset import AnalysisError
+from exudyn_wheelset import AnalysisError, Ending, Motion, Outcome
 from exudyn_wheelset.results import comfort, en14363
 from exudyn_wheelset.results import running_safety as safety
 
@@ -36,6 +36,21 @@ def test_quotient_counts_towards_the_field_side():
     vertical = np.array([[[50e3, 0.0]]])
     found = safety.guiding_quotient(lateral, vertical)
     assert found[0, 0, 0] == pytest.approx(0.2) and np.isnan(found[0, 0, 1])
+
+
+def test_acceleration_of_a_point_of_a_body_that_sways_and_yaws():
+    """y = A sin(w t) at the centre and a yaw B sin(w t): at 5 m ahead A + 5 B, twice derived."""
+    omega, sway, yaw = 6.0, 0.01, 2e-3
+    rate = omega * np.cos(omega * TIME)
+    columns = {f"body: v{axis} [m/s]": sway * rate * (axis == "y") for axis in "xyz"}
+    columns |= {f"body: w{axis} [rad/s]": yaw * rate * (axis == "z") for axis in "xyz"}
+    motion = Motion(TIME, columns, Outcome(Ending.FINISHED), 20.0)
+    found = motion.acceleration("body", (5.0, 0.0, 0.0))
+    known = -(sway + 5.0 * yaw) * omega**2 * np.sin(omega * TIME)
+    # Central differences: (w h)^2/6 of it.
+    assert found[1:-1, 1] == pytest.approx(known[1:-1], abs=1e-4 * np.abs(known).max())
+    assert np.all(found[:, [0, 2]] == 0.0)
+    assert motion.distance == pytest.approx(20.0 * TIME)
 
 
 def test_sliding_mean_of_a_line_and_of_a_step():

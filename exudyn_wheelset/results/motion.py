@@ -13,7 +13,7 @@ frame. Track frame: x forward, y left, z up; SI units, radians.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -187,6 +187,18 @@ class Motion:
     def wear_number(self) -> Array:
         """T-gamma (m, wheelsets, 2) [N]: |F_x xi_x| + |F_y xi_y| + |M_z phi| over all patches."""
         return self.of_wheels("wear_number [N]")
+
+    def acceleration(self, body: str, place: Sequence[float] = (0.0, 0.0, 0.0)) -> Array:
+        """Acceleration (m, 3) [m/s^2] of a point of a body, along x, y, z of the vehicle's frame.
+
+        place (x, y, z) [m] from the body's centre: over a bogie, at an axle box. The rate of the
+        point's velocity in the frame, v + w x r for small rotations, by differences of the samples;
+        what the frame itself does in a curve is not in it.
+        """
+        own = self.body(body)
+        velocity = np.column_stack([own[f"v{axis} [m/s]"] for axis in "xyz"])
+        spin = np.column_stack([own[f"w{axis} [rad/s]"] for axis in "xyz"])
+        return np.gradient(velocity + np.cross(spin, place), self.time, axis=0)
 
     def sliding_mean(
         self, values: Array, length: float = 2.0, step: float = 0.5
