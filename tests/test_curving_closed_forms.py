@@ -304,11 +304,12 @@ def test_runs_that_do_not_go_with_the_irregularity_are_refused():
         simulate(COACH.on(replace(COACH.track, irregularity=fine)), 40.0, 0.1)
 
 
-def test_a_curve_too_narrow_says_how_far_it_came():
-    with pytest.raises(
-        AnalysisError, match=r"no steady running at 10 m/s beyond 0\.\d+ of the curve"
-    ):
-        steady_curve(COACH, 60.0, 0.0, 10.0)
+def test_where_newtons_method_ends_it_says_how_far_it_came():
+    """The trailing wheelsets go over to their inner flanges near 160 m."""
+    with pytest.raises(AnalysisError, match=r"no steady running at 10 m/s beyond 0\.\d+ of"):
+        steady_curve(COACH, 150.0, 0.0, 10.0)
+    beyond = steady_curve(COACH, 100.0, 0.0, 10.0)
+    assert beyond.y[1] > 5e-3 and beyond.y[0] < -5e-3
 
 
 def test_mirrored_vehicles_on_mirrored_track():

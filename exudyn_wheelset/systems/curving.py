@@ -17,11 +17,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.coupling.derailment import DerailmentWatch
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.track_kernel import frame_beside, relative_pose
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.system import newton_equilibrium
 
 if TYPE_CHECKING:
@@ -32,8 +33,8 @@ if TYPE_CHECKING:
 _FIRST_SHARE, _LEAST_SHARE = 0.2, 1.0e-3
 # Newton's steps of a share of the curve: more of them mean that it was too large a share.
 _NEWTON_STEPS = 25
-# Where Newton's method ends: share of the curve that is gone on by, and seconds to settle.
-_SETTLED_SHARE, _SETTLING_RUNS = 0.02, 15
+# Where Newton's method ends: shares of the curve to leap by, and seconds to settle.
+_LEAPS, _SETTLING_RUNS = (0.02, 0.05, 0.1, 0.2, 0.4), 15
 # Way [m] for the rate at which the track changes beside a frame.
 _DIFFERENCE = 1.0e-3
 
@@ -133,26 +134,60 @@ def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) ->
                 if step > _LEAST_SHARE:
                     step *= 0.5
                     continue
-                share = min(1.0, shares[-1] + _SETTLED_SHARE)
-                here = share * target
-                guess = moved_with_track(system, frame, states[-1], straight, here)
-                settled = _settled(system, guess, speed)
-                if settled is None:
+                beyond = _beyond(system, frame, speed, states[-1], shares[-1], target)
+                if beyond is None:
                     radius = 1.0 / (shares[-1] * target[0]) if target[0] else np.inf
                     raise AnalysisError(
                         f"{system.name}: no steady running at {speed:g} m/s beyond "
                         f"{shares[-1]:.3f} of the curve (radius {radius:.4g} m): {error}"
                     ) from error
-                state = settled
+                share, state = beyond
+                here = share * target
                 states, shares = states[:0], shares[:0]
+            off = _off_the_rails(system, state, speed)
+            if off is not None:
+                raise AnalysisError(
+                    f"{system.name}: no steady running at {speed:g} m/s beyond {shares[-1]:.3f} of "
+                    f"the curve: {off}; give a wider curve or widen the gauge"
+                    if shares
+                    else f"{system.name}: no steady running at {speed:g} m/s: {off}"
+                )
             states.append(moved_with_track(system, frame, state, here, straight))
             before = shares[-1] if shares else share
             shares.append(share)
-            step = min(1.6 * (share - before), 0.5) or _SETTLED_SHARE
+            step = min(1.6 * (share - before), 0.5) or _LEAPS[0]
         return moved_with_track(system, frame, states[-1], straight, target)
     finally:
         frame.freeze(*target)
         forget(system.wheelsets)
+
+
+def _beyond(
+    system: VehicleSystem, frame: TrackFrame, speed: float, state: Array, share: float,
+    target: Array,
+) -> tuple[float, Array] | None:  # fmt: skip
+    """Share of the curve and steady state there, past a place where Newton's method ends.
+
+    state: measured from the track at `share`. By leaps, then by letting the vehicle run.
+    """
+    straight = 0.0 * target
+    for leap in _LEAPS:
+        there = min(1.0, share + leap)
+        guess = moved_with_track(system, frame, state, straight, there * target)
+        try:
+            return there, newton_equilibrium(system, speed, guess, steps=_NEWTON_STEPS)
+        except AnalysisError:
+            continue
+    there = min(1.0, share + _LEAPS[0])
+    guess = moved_with_track(system, frame, state, straight, there * target)
+    settled = _settled(system, guess, speed)
+    return None if settled is None else (there, settled)
+
+
+def _off_the_rails(system: VehicleSystem, state: Array, speed: float) -> Outcome | None:
+    """How a wheelset stands beside its rails in a state, or None."""
+    system.derivative(state, speed)
+    return DerailmentWatch(system.contacts).look(0.0)
 
 
 def _settled(system: VehicleSystem, state: Array, speed: float) -> Array | None:
