@@ -1,7 +1,7 @@
 """Every wheel of a folder on every rail of another: conicity, critical speeds, the worst pairs.
 
 Run `python models/profile_study.py --wheels FOLDER --rails FOLDER --vehicle s1002`; vehicles are
-those of `exudyn_wheelset.catalogue`. For each pair:
+those of `exudyn_wheelset.catalogue`, or files. For each pair:
 
     conicity_2mm, 3mm, 4mm   equivalent conicity by EN 15302 at these amplitudes [-]
     nonlinearity             (conicity at 4 mm - conicity at 2 mm)/2 mm [1/mm]: falling conicity
@@ -23,23 +23,20 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import matplotlib
 import numpy as np
 
 from exudyn_wheelset import nonlinear_critical_speed
-from exudyn_wheelset.catalogue import CATALOGUE, entry, vehicle
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
-from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.script import inclination_of, run_script, script_parser, smoothing_of
+from exudyn_wheelset.front.vehicle_options import ChosenVehicle, named_vehicle
 from exudyn_wheelset.geometry.conicity import equivalent_conicity
 from exudyn_wheelset.geometry.rolling_radius import rolling_radius_curve
 from exudyn_wheelset.profiles import load_profile
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.stability.subject import as_system, description_of
 from exudyn_wheelset.studies import Study, files, study
-
-matplotlib.use("Agg")
 
 AMPLITUDES_MM = (2, 3, 4)
 # Shift looked at for the conicity [m]: 4 mm and the way of the centre.
@@ -50,7 +47,7 @@ def pair(case: dict[str, Any], name: str, smoothing: float | str, changes: dict)
     """The numbers of one pair of profiles, wheel and rail, under a vehicle of the catalogue."""
     wheel = load_profile(case["wheel"], kind="wheel", smoothing=smoothing)
     rail = load_profile(case["rail"], kind="rail", smoothing=smoothing)
-    found = description_of(vehicle(name, wheel=wheel, rail=rail, **changes))
+    found = description_of(named_vehicle(name, wheel=wheel, rail=rail, **changes))
     wheelset = found.wheelsets[0].wheelset
     curve = rolling_radius_curve(wheelset, found.track, REACH)
     amplitudes = [1e-3 * amplitude for amplitude in AMPLITUDES_MM]
@@ -60,7 +57,7 @@ def pair(case: dict[str, Any], name: str, smoothing: float | str, changes: dict)
     }
     numbers["nonlinearity"] = 0.5 * (numbers["conicity_4mm"] - numbers["conicity_2mm"])
     system = as_system(found)
-    hopf = [p for p in hopf_points(system, *entry(name).searched) if p.slope > 0.0]
+    hopf = [p for p in hopf_points(system, *ChosenVehicle(name).searched) if p.slope > 0.0]
     numbers["linear"] = hopf[0].speed if hopf else None
     if hopf:
         try:
@@ -84,7 +81,7 @@ def run(
     out: str | PathLike = Path("runs") / "out",
 ) -> dict[str, Any]:
     """The study of all pairs, its files under `out`, and the pairs by rising critical speed."""
-    entry(vehicle)
+    named_vehicle(vehicle)
     axles, tracks = files(wheels, pattern, name="wheel"), files(rails, pattern, name="rail")
     cases = [{**wheel, **rail} for wheel in axles for rail in tracks]
     asked = {"gauge": gauge, "inclination": inclination}
@@ -134,22 +131,20 @@ def show(numbers: dict[str, Any]) -> None:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run from the command line; exit status."""
     parser = script_parser(str(__doc__).splitlines()[0], settings=False)
-    parser.add_argument("--wheels", required=True, help="folder of wheel profiles")
-    parser.add_argument("--rails", required=True, help="folder of rail profiles")
-    parser.add_argument("--vehicle", choices=list(CATALOGUE), default="s1002")
-    parser.add_argument("--pattern", default="*.*", help="of the files' names")
-    parser.add_argument("--smoothing", default="auto", help="'auto', or 0 for none")
-    parser.add_argument("--gauge", type=float, help="[m]; default the vehicle's own")
-    parser.add_argument(
-        "--inclination", type=float, help="of the rails [-]; 0 if measured in place"
-    )
-    parser.add_argument("--processes", type=int, help="default: as many as there are cores")
+    add = parser.add_argument
+    add("--wheels", help="folder of wheel profiles")
+    add("--rails", help="folder of rail profiles")
+    add("--vehicle", default="s1002", help="name of the catalogue, or a file")
+    add("--pattern", default="*.*", help="of the files' names")
+    add("--smoothing", type=smoothing_of, default="auto", help="'auto', or 0 for none")
+    add("--gauge", type=float, help="[m]; default the vehicle's own")
+    add("--inclination", type=inclination_of, help="of the rails; 0 if measured in place")
+    add("--processes", type=int, help="default: as many as there are cores")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        values = vars(arguments).copy()
-        del values["json"]
-        if values["smoothing"] != "auto":
-            values["smoothing"] = float(values["smoothing"])
+        values = {name: value for name, value in vars(arguments).items() if name != "json"}
+        if not values["wheels"] or not values["rails"]:
+            raise WheelsetError("give folders of profiles: --wheels FOLDER --rails FOLDER")
         return run(**values)
 
     return run_script(work, parser, argv, show)

@@ -16,8 +16,9 @@ WITH_SETTINGS = [
     for name in SCRIPTS
     if "settings=False" not in (ROOT / "models" / f"{name}.py").read_text(encoding="utf-8")
 ]
-# Kaas-Petersen's bogie is cones on lines; the shifts of derailment.py are those of S1002's flange.
-WITHOUT_PROFILES = ("cooperrider_bogie", "derailment")
+# Kaas-Petersen's bogie is cones on lines; the shifts of derailment.py are those of S1002's flange;
+# a study takes folders of profiles.
+WITHOUT_PROFILES = ("cooperrider_bogie", "derailment", "profile_study")
 SETTINGS = sorted((ROOT / "runs").glob("*.json"))
 
 
@@ -78,6 +79,8 @@ def test_missing_settings_file(name, tmp_path, capsys):
         ("single_wheelset", ["--speed", "-3"], "m/s"),
         ("single_wheelset", ["--creep", "polak"], "polach"),
         ("single_wheelset", ["--duration", "0"], "0.01"),
+        ("profile_study", ["--wheels", "here"], "--rails FOLDER"),
+        ("curving", ["--vehicle", "manchester_coch"], "manchester_coach"),
         ("simple_truck", ["--amplitude", "-1"], "metres"),
         ("simple_truck", ["--friction", "9"], "friction"),
     ],

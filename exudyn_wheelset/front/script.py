@@ -126,11 +126,14 @@ def add_profile_options(
         "--gauge-depth", type=float, default=gauge_depth, help="below the rail's top [m]"
     )
     group.add_argument(
-        "--inclination", type=_inclination, default=inclination, help="of the rails, 1:40 or 0.025"
+        "--inclination",
+        type=inclination_of,
+        default=inclination,
+        help="of the rails, 1:40 or 0.025",
     )
     group.add_argument(
         "--smoothing",
-        type=_smoothing,
+        type=smoothing_of,
         default=0.0,
         help="of profiles from files: 'auto', or the rms distance of points to curve [m]",
     )
@@ -159,7 +162,7 @@ def script_profile(source: str | None, kind: str, smoothing: float | str) -> Pro
     return load_profile(source, kind=kind, smoothing=smoothing if Path(source).is_file() else 0.0)
 
 
-def _inclination(text: str) -> float:
+def inclination_of(text: str) -> float:
     """An inclination from "1:40", "1/40", "0.025" or "0"."""
     match = re.fullmatch(r"1\s*[:/]\s*(\d+(?:\.\d*)?)", text.strip())
     try:
@@ -168,7 +171,8 @@ def _inclination(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r}; give 1:40, 1/40, 0.025 or 0") from None
 
 
-def _smoothing(text: str) -> float | str:
+def smoothing_of(text: str) -> float | str:
+    """A smoothing from "auto" or a length in metres."""
     if text == "auto":
         return text
     try:
