@@ -6,9 +6,30 @@ from creep_reference import PATCH, spin_set
 from scipy.integrate import quad
 
 from exudyn_wheelset.creep import creep_force, creep_parameters, kalker_coefficients
+from exudyn_wheelset.creep.fastsim import slip_step
 from exudyn_wheelset.errors import WheelsetError
 
 ELLIPSES = [(5.5e-3, 5.5e-3), (3e-3, 9e-3), (8e-3, 2e-3)]
+
+
+def test_no_slip_or_no_load_no_force():
+    assert creep_force("fastsim", 0.0, 0.0, 0.0, **PATCH) == (0.0, 0.0, 0.0)
+    for nothing in ({"normal_force": 0.0}, {"friction": 0.0}):
+        assert creep_force("fastsim", 1e-3, 0.0, 0.0, **(PATCH | nothing)) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("change", [-50.0, 0.0, 50.0])
+def test_a_traction_that_turns_fast_ends_against_the_slip_of_the_steps_end(change):
+    """rise_y is the slip at the middle of the step and falls by `change` over it.
+
+    The direction lags by one turn's length, 1/(2 * 125/(0.5 + 0.5)) of the step: 0.4 % of change.
+    """
+    rise = np.array([100.0, 75.0])
+    traction = slip_step(0.1, 0.2, *rise, change, 0.5, 0.5)
+    at_end = rise - [0.0, 0.5 * change]
+    expected = -0.5 * at_end / np.hypot(*at_end)
+    assert np.hypot(*traction) == pytest.approx(0.5, rel=1e-12)
+    np.testing.assert_allclose(traction, expected, atol=3e-3)
 
 
 def strips_in_closed_form(creep, a, b):

@@ -95,7 +95,9 @@ GROUPS = {
     "slopes": Group(("creep/slopes.py",), ("test_law_checks.py",)),
     "fastsim": Group(
         ("creep/fastsim.py",),
-        ("test_creep_curves_contact.py", "test_creep_fastsim_theory.py"),
+        ("test_creep_fastsim_theory.py", "test_creep_curves_contact.py"),
+        compiled=False,
+        deselected="exact",
     ),
     "hertz": Group(("contact/hertz.py",), ("test_hertz_elliptic_integrals.py",), compiled=False),
     "locus": Group(
