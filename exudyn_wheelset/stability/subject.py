@@ -6,11 +6,30 @@ vehicle, gradients, maps, designs, can make it anew with other numbers.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.systems import system as systems
 from exudyn_wheelset.systems.system import DynamicSystem
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A name of the catalogue that stands for a system, with changes of it by name and value."""
+
+    name: str
+    changes: tuple[tuple[str, Any], ...] = ()
+
+    def replace(self, path: str, value: Any) -> Entry:
+        """The entry with one more change, as `catalogue.vehicle` takes them."""
+        return Entry(self.name, (*self.changes, (path, value)))
+
+    def dynamic_system(self, **options: Any) -> DynamicSystem:
+        """The system of the vehicle."""
+        from exudyn_wheelset.catalogue import by_name
+
+        return systems.as_system(by_name.vehicle(self.name, **dict(self.changes)), **options)
 
 
 def named(vehicle: Any) -> Any:
@@ -39,6 +58,8 @@ def description_of(vehicle: Any) -> Any:
     """
     given = named(vehicle)
     if isinstance(given, DynamicSystem) and not hasattr(given, "replace"):
+        if isinstance(vehicle, str):
+            return Entry(vehicle)
         if given.source is None or given.source.description is None:
             raise AnalysisError(
                 f"{given.name} does not know the description it was made from: give the vehicle, "
