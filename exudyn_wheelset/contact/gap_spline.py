@@ -72,8 +72,9 @@ def sample_lobes(table, side, lobes, count, low, axle, work):
         lobe = lobes[k]
         level = low * lobe.penetration
         at = (lobe.foot - start) * per
-        # The chord of two nodes of the scan lies below the lobe: it is a little short.
-        ends = 0.5 + _MARGIN
+        # The chord of two nodes of the scan lies below the lobe: it is a little short. Beside the
+        # rail the scan knows nothing, so that a second try goes further by itself.
+        ends = 0.5 + _MARGIN - 20.0 * min(low, 0.0)
         reach = per * _reach(
             work.depths, arcs, work.first_node, work.final_node, lobe, level, -1
         )  # fmt: skip
