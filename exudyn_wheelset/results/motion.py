@@ -22,6 +22,7 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results import comfort, en14363
 from exudyn_wheelset.results import running_safety as safety
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Outcome
@@ -205,6 +206,41 @@ class Motion:
     ) -> tuple[Array, Array]:
         """Means of values (m, ...) over `length` [m], every `step` [m]: centres [m], means."""
         return safety.sliding_mean(self.distance, values, length, step)
+
+    def percentiles(self, values: Array, length: float = 100.0, frequency: float = 20.0) -> Array:
+        """0.15, 50 and 99.85 % points (sections, 3, ...) of values (m, ...) over sections [m].
+
+        Low-passed at `frequency` [Hz] before (EN 14363: 4th order, no shift of phase). Raises
+        AnalysisError for a motion shorter than a section or sampled too coarsely.
+        """
+        filtered = en14363.low_pass(self.time, values, frequency)
+        return en14363.section_percentiles(self.distance, filtered, length)
+
+    def instability(self, frequency: float, length: float = 100.0) -> tuple[Array, Array]:
+        """Root mean square of the sum of Y about a frequency f0 [Hz], +- 2 Hz (EN 14363).
+
+        Centres (k,) [m] of windows of `length` [m] every 10 m, values (k, wheelsets) [N]; compare
+        with half of the limit of the sum of Y.
+        """
+        return en14363.instability(self.time, self.distance, self.sum_of_y(), frequency, length)
+
+    def mean_comfort(self, body: str, place: Sequence[float] = (0.0, 0.0, 0.0)) -> float:
+        """N_MV of EN 12299 at a point of a body (see `acceleration`), from blocks of 5 s."""
+        return comfort.mean_comfort(self.time, *self.acceleration(body, place).T)
+
+    def continuous_comfort(self, body: str, place: Sequence[float] = (0.0, 0.0, 0.0)) -> Array:
+        """Weighted root mean squares (blocks, 3) [m/s^2] along x, y, z over blocks of 5 s."""
+        rows = zip(self.acceleration(body, place).T, ("Wd", "Wd", "Wb"), strict=True)
+        return np.column_stack(
+            [comfort.block_rms(self.time, comfort.weighted(self.time, a, name)) for a, name in rows]
+        )
+
+    def sperling(
+        self, body: str, place: Sequence[float] = (0.0, 0.0, 0.0), vertical: bool = False
+    ) -> float:
+        """Sperling's Wz of the lateral, or vertical, acceleration at a point of a body."""
+        row = 2 if vertical else 1
+        return comfort.sperling(self.time, self.acceleration(body, place)[:, row], vertical)
 
     def after(self, time: float) -> Motion:
         """The part from a time [s] on."""
