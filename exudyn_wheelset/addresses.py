@@ -7,11 +7,12 @@ its first number and its length. Whoever makes a block keeps its arrays alive an
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 import numba
 import numpy as np
-from numba.core import cgutils, types
+from numba.core import cgutils, config, types
 from numba.extending import intrinsic
 
 from exudyn_wheelset.compilation import compiled
@@ -26,19 +27,31 @@ def _to_pointer(typing_context: Any, address: Any) -> Any:
     return types.voidptr(address), generate
 
 
-_pointer: Any = intrinsic(_to_pointer)
+if getattr(config, "DISABLE_JIT", False):
 
+    def _array_at(address: int, count: int, kind: Any) -> np.ndarray:
+        return np.ctypeslib.as_array((kind * int(count)).from_address(int(address)))
 
-@compiled(inline="always")
-def integers_at(address, count):
-    """The `count` integers that begin at an address."""
-    return numba.carray(_pointer(address), (count,), np.int64)
+    def integers_at(address, count):
+        """The `count` integers that begin at an address."""
+        return _array_at(address, count, ctypes.c_int64)
 
+    def numbers_at(address, count):
+        """The `count` floats that begin at an address."""
+        return _array_at(address, count, ctypes.c_double)
 
-@compiled(inline="always")
-def numbers_at(address, count):
-    """The `count` floats that begin at an address."""
-    return numba.carray(_pointer(address), (count,), np.float64)
+else:
+    _pointer: Any = intrinsic(_to_pointer)
+
+    @compiled(inline="always")
+    def integers_at(address, count):
+        """The `count` integers that begin at an address."""
+        return numba.carray(_pointer(address), (count,), np.int64)
+
+    @compiled(inline="always")
+    def numbers_at(address, count):
+        """The `count` floats that begin at an address."""
+        return numba.carray(_pointer(address), (count,), np.float64)
 
 
 def address_of(array: np.ndarray) -> int:
