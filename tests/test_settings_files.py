@@ -186,6 +186,28 @@ def test_a_file_that_is_no_settings_file(tmp_path, content, message):
     assert "run.json" in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b'{"timeIntegration": {"endTime": 1e999}}', "not finite"),
+        (b'{"timeIntegration": {"endTime": NaN}}', "not finite"),
+        (b'{"timeIntegration": {"numberOfSteps": ' + b"7" * 5000 + b"}}", "digits"),
+        (b'{"timeIntegration": {"numberOfSteps": ' + b"7" * 400 + b"}}", "400 digits"),
+        (b'{"timeIntegration": {"endTime": ' + b"7" * 400 + b"}}", "400 digits"),
+        (b'{"a": ' * 100 + b"1" + b"}" * 100, "four deep"),
+        (b'{"a": ' * 100000 + b"1" + b"}" * 100000, "four deep"),
+        (b"[" * 100000, "four deep"),
+    ],
+    ids=["1e999", "nan", "5000 digits", "400 digits", "float", "100 deep", "1e5 deep", "lists"],
+)
+def test_numbers_and_nesting_beyond_reason(tmp_path, content, message):
+    path = tmp_path / "run.json"
+    path.write_bytes(content)
+    with pytest.raises(SettingsError, match=message) as raised:
+        load_settings(path)
+    assert len(str(raised.value)) < 300 + len(str(path))
+
+
 def test_missing_file_and_directory(tmp_path):
     with pytest.raises(SettingsError, match="no such settings file"):
         load_settings(tmp_path / "absent.json")

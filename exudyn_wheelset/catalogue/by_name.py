@@ -152,7 +152,7 @@ def _paper(spring_set: int) -> Callable[[Changes], Any]:
             spring_set,
             driven=False,
             wheel=changes.tread(paper.WHEEL),
-            **changes.given("friction", "creep", "damping"),
+            **changes.given(*_CONTACT),
         )
         return _on_track(made, changes)
 
@@ -174,9 +174,7 @@ def _paper_lateral(spring_set: int) -> Callable[[Changes], Any]:
 
 
 def _s1002(changes: Changes) -> WheelsetOnFrame:
-    made = s1002_wheelset(
-        wheel=changes.tread("S1002"), **changes.given("friction", "creep", "damping")
-    )
+    made = s1002_wheelset(wheel=changes.tread("S1002"), **changes.given(*_CONTACT))
     return _on_track(made, changes)
 
 
@@ -188,13 +186,14 @@ def _cooperrider(changes: Changes) -> CooperriderBogie:
 
 
 def _truck(changes: Changes) -> Truck:
-    made = dtu_truck(wheel=changes.tread("S1002"), **changes.given("friction", "creep", "damping"))
+    made = dtu_truck(wheel=changes.tread("S1002"), **changes.given(*_CONTACT))
     return _on_track(made, changes)
 
 
 _TRACK = ("gauge", "gauge_depth", "inclination")
 _LATERAL = ("friction", "creep", *_TRACK, "wheel", "rail", "conicity")
-_ON_PROFILES = (*_LATERAL, "damping")
+_CONTACT = ("friction", "creep", "damping", "law_parameters")
+_ON_PROFILES = (*_LATERAL, "damping", "law_parameters")
 _PAPER_SEARCHED = {1: (10.0, 100.0), 2: (40.0, 200.0), 3: (100.0, 320.0)}
 
 CATALOGUE: dict[str, Entry] = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -21,7 +22,8 @@ class Changes:
     taper takes the wheel's place; inclination [-] of the rails; gauge_depth [m] below their tops at
     which the gauge is measured; damping [s/m] of the normal contact, which takes up the energy of
     flange impacts; shear_modulus [Pa], poisson [-] of wheel and rail; normal: contact model;
-    tape_half_distance, radius [m] of the wheelsets.
+    tape_half_distance, radius [m] of the wheelsets; law_parameters: those of the creep law, by
+    name.
     """
 
     friction: float | None = None
@@ -38,6 +40,7 @@ class Changes:
     normal: str | None = None
     tape_half_distance: float | None = None
     radius: float | None = None
+    law_parameters: Mapping[str, float] | None = None
 
     @classmethod
     def of(cls, vehicle: str, **changes: Any) -> Changes:
@@ -80,6 +83,7 @@ class Changes:
     def contact(self, **own: Any) -> Contact:
         """The vehicle's contact with its changes."""
         names = ("friction", "creep", "shear_modulus", "poisson", "normal", "damping")
+        names = (*names, "law_parameters")
         return Contact(**{**own, **self.given(*names)})
 
     def applied_to(self, vehicle: Vehicle) -> Vehicle:

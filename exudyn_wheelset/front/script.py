@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import logging
+import os
 import re
 import sys
 import warnings
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import exudyn as exu
+import numpy as np
 
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track
@@ -50,16 +52,26 @@ def script_parser(description: str, *, settings: bool | Path = True) -> argparse
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.ArgumentDefaultsHelpFormatter
     )
+    add_common_options(parser, settings=settings, out=DEFAULT_OUT)
+    return parser
+
+
+def add_common_options(
+    parser: argparse.ArgumentParser, *, settings: bool | Path = True, out: Path | None = None
+) -> None:
+    """Add --json, --out and, unless `settings` is False, --settings; out: default of --out."""
     parser.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
-    parser.add_argument(
-        "--out", type=Path, default=DEFAULT_OUT, help="directory for figures and data"
-    )
+    where = "directory for figures and data" + ("" if out else "; nothing is written without it")
+    parser.add_argument("--out", type=Path, default=out, metavar="FOLDER", help=where)
     if settings:
         default = settings if isinstance(settings, Path) else None
         parser.add_argument(
-            "--settings", type=Path, default=default, help="Exudyn solver settings file (JSON)"
+            "--settings",
+            type=Path,
+            default=default,
+            metavar="FILE",
+            help="Exudyn solver settings file (JSON)",
         )
-    return parser
 
 
 def get_ready(arguments: argparse.Namespace) -> exu.SimulationSettings | None:
@@ -206,12 +218,21 @@ def run_script(
     argv: Sequence[str] | None = None,
     show: Callable[[dict[str, Any]], None] | None = None,
 ) -> int:
-    """Run a script's `run`, print its numbers, turn our errors and warnings into one line each.
+    """Run a script's `run`, print its numbers, turn errors and warnings into one line each.
 
-    Returns the exit status. show prints the numbers for people; with --json they are printed as
-    one JSON object.
+    Returns the exit status: 0, 2 after an error, 130 after Ctrl-C. show prints the numbers for
+    people; with --json they are printed as one JSON object, null for what is not a finite number.
     """
-    arguments = parser.parse_args(argv)
+    return run_parsed(run, parser.parse_args(argv), parser.prog, show)
+
+
+def run_parsed(
+    run: Callable[[argparse.Namespace], dict[str, Any]],
+    arguments: argparse.Namespace,
+    prog: str,
+    show: Callable[[dict[str, Any]], None] | None = None,
+) -> int:
+    """As `run_script`, with the command line already parsed; prog: name of the script."""
     log = logging.getLogger("exudyn_wheelset")
     level = log.level
     if arguments.json:
@@ -219,20 +240,56 @@ def run_script(
         log.setLevel(logging.ERROR)
     try:
         with warnings.catch_warnings():
-            warnings.showwarning = _shown_by(parser.prog, warnings.showwarning)
+            warnings.showwarning = _shown_by(prog, warnings.showwarning)
             numbers = run(arguments)
+        if arguments.json:
+            print(json.dumps(_finite(numbers), default=plain, allow_nan=False))
+        elif show is not None:
+            show(numbers)
+        sys.stdout.flush()
     except WheelsetError as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
+        print(f"{prog}: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         if isinstance(interrupt, Interrupted) and show is not None and not arguments.json:
             show(interrupt.numbers)
-        print(f"{parser.prog}: interrupted; finished results are kept", file=sys.stderr)
+        print(f"{prog}: interrupted; finished results are kept", file=sys.stderr)
         return 130
+    except BrokenPipeError:
+        # Who reads has heard enough (`... | head`).
+        _forget_output()
+        return 0
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        print(f"{prog}: {where}{error.strerror or error}", file=sys.stderr)
+        _forget_output()
+        return 2
+    except MemoryError:
+        print(f"{prog}: not enough memory for so many numbers", file=sys.stderr)
+        return 2
     finally:
         log.setLevel(level)
-    if arguments.json:
-        print(json.dumps(numbers, default=plain))
-    elif show is not None:
-        show(numbers)
     return 0
+
+
+def _finite(value: Any) -> Any:
+    """Numbers as JSON knows them: None in place of infinities and what is no number."""
+    if isinstance(value, dict):
+        return {str(name): _finite(entry) for name, entry in value.items()}
+    if isinstance(value, np.ndarray):
+        return _finite(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    if isinstance(value, float | np.floating):
+        return float(value) if np.isfinite(value) else None
+    return value
+
+
+def _forget_output() -> None:
+    """Let what could not be printed go, which Python would try again on its way out."""
+    try:
+        nothing = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nothing, sys.stdout.fileno())
+        os.close(nothing)
+    except (OSError, ValueError):
+        pass

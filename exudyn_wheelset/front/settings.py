@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
@@ -20,6 +21,10 @@ import exudyn as exu
 
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import SettingsError
+
+# Exudyn's settings are four deep.
+_DEEPEST = 20
+_TOO_DEEP = f"nested more than {_DEEPEST} deep: the settings of Exudyn are four deep"
 
 
 def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.SimulationSettings:
@@ -56,7 +61,7 @@ def apply_settings(
             setattr(target, last, converted)
         except Exception as error:
             reason = str(error).split(" (", 1)[0]
-            raise SettingsError(f"{origin}: {name} = {value!r}: {reason}") from error
+            raise SettingsError(f"{origin}: {name} = {_shown(value)}: {reason}") from error
 
 
 def changed_settings(settings: exu.SimulationSettings) -> dict[str, Any]:
@@ -82,16 +87,25 @@ def _read(path: Path) -> Mapping[str, Any]:
             f"{path}: line {error.lineno}: not JSON ({error.msg}); write an object such as "
             '{"timeIntegration": {"endTime": 2.0}}'
         ) from error
+    except RecursionError:
+        raise SettingsError(f"{path}: {_TOO_DEEP}") from None
+    except ValueError as error:
+        # Python's limit on the digits of a whole number.
+        raise SettingsError(f"{path}: a number of too many digits ({error})") from None
     if not isinstance(entries, dict):
         raise SettingsError(f"{path}: holds a {type(entries).__name__}, not an object {{...}}")
     return entries
 
 
-def _flatten(entries: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+def _flatten(entries: Mapping[str, Any], prefix: str = "", depth: int = 0) -> dict[str, Any]:
+    if depth > _DEEPEST:
+        raise SettingsError(_TOO_DEEP)
     flat: dict[str, Any] = {}
     for name, value in entries.items():
+        if not isinstance(name, str):
+            raise SettingsError(f"{prefix}{name!r} is no name of a setting: give words")
         if isinstance(value, Mapping):
-            flat.update(_flatten(value, f"{prefix}{name}."))
+            flat.update(_flatten(value, f"{prefix}{name}.", depth + 1))
         else:
             flat[prefix + name] = value
     return flat
@@ -111,9 +125,10 @@ def _converted(where: str, value: Any, default: Any) -> Any:
         members = type(default).__members__
         if isinstance(value, str) and value in members:
             return members[value]
-        near = difflib.get_close_matches(str(value), list(members), n=1, cutoff=0.0)
+        near = difflib.get_close_matches(_shown(value), list(members), n=1, cutoff=0.0)
         raise SettingsError(
-            f"{where} = {value!r}: give one of {', '.join(members)}; the nearest is {near[0]!r}"
+            f"{where} = {_shown(value)}: give one of {', '.join(members)}; "
+            f"the nearest is {near[0]!r}"
         )
     if isinstance(default, bool):
         right = isinstance(value, bool)
@@ -125,10 +140,28 @@ def _converted(where: str, value: Any, default: Any) -> Any:
         right = isinstance(value, type(default))
     if not right:
         raise SettingsError(
-            f"{where} = {value!r} is of type {type(value).__name__}: "
+            f"{where} = {_shown(value)} is of type {type(value).__name__}: "
             f"give a {type(default).__name__} (the default is {default!r})"
         )
-    return float(value) if isinstance(default, float) else value
+    if not isinstance(default, float):
+        return value
+    try:
+        finite = math.isfinite(value)
+    except OverflowError:
+        finite = False
+    if not finite:
+        raise SettingsError(
+            f"{where} = {_shown(value)} is not finite: give a number (the default is {default!r})"
+        )
+    return float(value)
+
+
+def _shown(value: Any) -> str:
+    """A value as text that fits into a line."""
+    if isinstance(value, int) and abs(value) > 10**40:
+        return f"a number of {int(math.log10(abs(value))) + 1} digits"
+    text = repr(value)
+    return text if len(text) < 80 else f"{text[:70]}..."
 
 
 def output_of(
