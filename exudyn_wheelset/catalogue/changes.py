@@ -83,8 +83,7 @@ class Changes:
     def contact(self, **own: Any) -> Contact:
         """The vehicle's contact with its changes."""
         names = ("friction", "creep", "shear_modulus", "poisson", "normal", "damping")
-        names = (*names, "law_parameters")
-        return Contact(**{**own, **self.given(*names)})
+        return Contact(**{**own, **self.given(*names, "law_parameters")})
 
     def applied_to(self, vehicle: Vehicle) -> Vehicle:
         """A described vehicle with these changes, on all its wheelsets."""
