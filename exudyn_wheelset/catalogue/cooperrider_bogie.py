@@ -32,6 +32,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import exudyn as exu
@@ -43,6 +44,7 @@ from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP
 
 STATE_NAMES = (
     "q1 leading wheelset y [m]",
@@ -164,6 +166,20 @@ class CooperriderBogie:
         ]
         return _sum_of_springs(dampers)
 
+    def derivatives(self, states: Array, speed: float) -> Array:
+        """Rates (m, 14) of states (m, 14) at a speed [m/s], without Exudyn."""
+        states = np.ascontiguousarray(states, dtype=float)
+        rates = np.empty_like(states)
+        bogie_rates(states, float(speed), *self._equations, rates)
+        return rates
+
+    @cached_property
+    def _equations(self) -> tuple[Array, Array, Array]:
+        """M^-1 (7,), -M^-1 (K, D) (7, 14) and the parameters of the contact."""
+        inverse = 1.0 / np.diagonal(self.mass_matrix())
+        linear = np.hstack([self.stiffness_matrix(), self.damping_matrix()])
+        return inverse, -inverse[:, None] * linear, self.contact_parameters()
+
     def contact_parameters(self) -> Array:
         """Parameters (6,) of `contact_forces`: lambda/r0, a, mu N, G pi a_e b_e, k0, clearance."""
         return np.array(
@@ -216,6 +232,54 @@ def contact_forces(
             forces[first] -= flange * (lateral - clearance)
         elif lateral < -clearance:
             forces[first] -= flange * (lateral + clearance)
+
+
+@compiled
+def bogie_rates(
+    states: Array, speed: float, inverse: Array, linear: Array, parameters: Array, rates: Array
+) -> None:
+    """Rates (m, 14) of states (m, 14), in place; inverse masses (7,), linear (7, 14) the
+    accelerations by states without creep and flanges, parameters those of `contact_forces`."""
+    forces = np.empty(7)
+    for row in range(states.shape[0]):
+        state, rate = states[row], rates[row]
+        contact_forces(state[:7], state[7:], speed, parameters, forces)
+        for i in range(7):
+            rate[i] = state[7 + i]
+            total = inverse[i] * forces[i]
+            for j in range(14):
+                total += linear[i, j] * state[j]
+            rate[7 + i] = total
+
+
+@compiled
+def bogie_jacobians(
+    states: Array,
+    speed: float,
+    inverse: Array,
+    linear: Array,
+    parameters: Array,
+    steps: Array,
+    matrices: Array,
+) -> None:
+    """Jacobians (m, 14, 14) of `bogie_rates`, in place; those of the contact by central
+    differences with `steps` (14,)."""
+    upper, lower = np.empty(7), np.empty(7)
+    for row in range(states.shape[0]):
+        state, matrix = states[row].copy(), matrices[row]
+        matrix[:] = 0.0
+        for i in range(7):
+            matrix[i, 7 + i] = 1.0
+            matrix[7 + i] = linear[i]
+        for j in (0, 1, 2, 3, 7, 8, 9, 10):
+            kept = state[j]
+            state[j] = kept + steps[j]
+            contact_forces(state[:7], state[7:], speed, parameters, upper)
+            state[j] = kept - steps[j]
+            contact_forces(state[:7], state[7:], speed, parameters, lower)
+            state[j] = kept
+            for i in range(4):
+                matrix[7 + i, j] += inverse[i] * (upper[i] - lower[i]) / (2.0 * steps[j])
 
 
 class BogieItems(NamedTuple):
@@ -275,7 +339,30 @@ def create_cooperrider_bogie(
     return BogieItems(node=int(node), suspension=int(suspension))
 
 
-def cooperrider_system(bogie: CooperriderBogie | None = None, **options: Any) -> ExudynSystem:
+class CooperriderSystem(ExudynSystem):
+    """The bogie alone in an Exudyn system; rates and Jacobians come from the compiled equations,
+    which are Exudyn's to rounding, motions from Exudyn's solver."""
+
+    bogie: CooperriderBogie
+
+    def derivative(self, state: Array, speed: float) -> Array:
+        return self.derivatives(np.asarray(state)[None], speed)[0]
+
+    def derivatives(self, states: Array, speed: float) -> Array:
+        return self.bogie.derivatives(states, speed)
+
+    def jacobian(self, state: Array, speed: float) -> Array:
+        return self.jacobians(np.asarray(state)[None], speed)[0]
+
+    def jacobians(self, states: Array, speed: float) -> Array:
+        states = np.ascontiguousarray(states, dtype=float)
+        matrices = np.empty((*states.shape, 14))
+        step = DIFFERENCE_STEP * SCALES
+        bogie_jacobians(states, float(speed), *self.bogie._equations, step, matrices)
+        return matrices
+
+
+def cooperrider_system(bogie: CooperriderBogie | None = None, **options: Any) -> CooperriderSystem:
     """The bogie alone in an Exudyn system, ready for the analyses; `options` go to ExudynSystem."""
     bogie = bogie or CooperriderBogie()
     container = exu.SystemContainer()
@@ -291,4 +378,6 @@ def cooperrider_system(bogie: CooperriderBogie | None = None, **options: Any) ->
         "scales": SCALES,
         "parameters": asdict(bogie),
     }
-    return ExudynSystem(mbs, container, set_speed=set_speed, **{**defaults, **options})
+    system = CooperriderSystem(mbs, container, set_speed=set_speed, **{**defaults, **options})
+    system.bogie = bogie
+    return system
