@@ -26,13 +26,21 @@ from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.profiles.finish import Options, check_options, finish
 from exudyn_wheelset.profiles.formats import gensys, miniprof, simpack, two_column, vampire
-from exudyn_wheelset.profiles.formats.raw import RawProfile, decode, fault, split_lines
+from exudyn_wheelset.profiles.formats.raw import (
+    RawProfile,
+    decode,
+    fault,
+    shorten,
+    split_lines,
+    unit_word,
+)
 from exudyn_wheelset.profiles.noise import warn_of_noise
 from exudyn_wheelset.profiles.profile import Profile
 
 BUNDLED = ("S1002", "UIC60", "AAR_1_20", "cone_1_20", "knife_edge")
 FORMATS = ("two-column", "simpack", "miniprof", "vampire", "gensys")
 _SIDES = ("left", "right")
+_SLICE = re.compile(r"\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*,?\s*['\"]([^'\"]+\.\w+)['\"]")
 _LOG = logging.getLogger("exudyn_wheelset.profiles")
 
 
@@ -51,11 +59,12 @@ def load_profile(
 ) -> Profile:
     """A wheel or rail profile by its name or from a file; a Profile passes through.
 
-    kind: "wheel" or "rail" where the file does not say; unit: "mm", "m", "cm" or "inch", which
-    goes before the file's own; smoothing: rms distance of the points to the curve [m], 0 to 1e-3,
-    or "auto": as much as the noise of the points calls for (penalised.py); side: "left" or "right"
-    where a file holds both; format: one of FORMATS instead of finding it; outlier_tolerance: points
-    farther than this [m] from the curve through their neighbours are left out and reported;
+    kind: "wheel" or "rail" where the file does not say; unit: "mm", "m", "cm", "um" or "inch",
+    which goes before the file's own; smoothing: rms distance of the points to the curve [m], 0 to
+    1e-3, or "auto": as much as the noise of the points calls for (penalised.py); side: "left" or
+    "right" where a file holds both; format: one of FORMATS instead of finding it;
+    outlier_tolerance: points farther than this [m] from the curve through their neighbours are left
+    out and reported;
     mirror_y: the file has its sides the other way round; shift_y, shift_z: added to the points [m]
     in the package's frame, after that.
     What was turned, cut off, shifted or guessed stands in the profile's `remarks` and goes to the
@@ -95,7 +104,7 @@ def load_profile(
         raise ProfileError(f"{label}: cannot be read ({error})") from None
     text, remarks = decode(data, label)
     options = Options(kind, unit, smoothing, outlier_tolerance, (shift_y, shift_z), mirror_y)
-    raw = _read(split_lines(text), label, path.suffix.lower(), format, kind, side)
+    raw = _read(split_lines(text), label, path.suffix.lower(), format, options, side)
     raw.remarks[:0] = remarks
     profile = finish(raw, label, path.stem, options)
     for remark in profile.remarks:
@@ -146,7 +155,7 @@ def _bundled(name: str) -> Profile | None:
 
 
 def _read(
-    lines: list[str], label: str, suffix: str, format: str | None, kind: str | None, side: str
+    lines: list[str], label: str, suffix: str, format: str | None, options: Options, side: str
 ) -> RawProfile:
     if format is None:
         format = _format_of(lines, suffix)
@@ -167,17 +176,36 @@ def _read(
             raise fault(label, 1, "the first line is neither WHEELPROFILE nor RAILPROFILE")
         return vampire.read(lines, label, side)
     if format == "miniprof":
-        return miniprof.read(lines, label, kind)
+        return miniprof.read(lines, label, options.kind, unit_word(options.unit or "mm"))
     if format == "gensys":
         return gensys.read(lines, label)
-    return two_column.read(lines, label, side)
+    _refuse_list_of_slices(lines, label, suffix)
+    raw = two_column.read(lines, label, side)
+    expected = {".prw": "wheel", ".prr": "rail"}.get(suffix)
+    if expected and raw.kind is None:
+        raw.kind = expected
+        raw.remarks.append(f"no SIMPACK keywords; read as columns, a {expected} by the suffix")
+    return raw
+
+
+def _refuse_list_of_slices(lines: list[str], label: str, suffix: str) -> None:
+    """CONTACT's .slcs and .slcw name the files of a profile that varies along rail or wheel."""
+    slices = [(n, m[1]) for n, line in enumerate(lines, start=1) if (m := _SLICE.match(line))]
+    if suffix in (".slcs", ".slcw") or len(slices) > 2:
+        line, name = slices[0] if slices else (1, "")
+        raise fault(
+            label,
+            line,
+            f"a list of profiles along the rail or around the wheel, not a profile; "
+            f"load one of its files, {shorten(name)!r} for instance",
+        )
 
 
 def _format_of(lines: list[str], suffix: str) -> str:
     """The format by content, then by suffix; .rai belongs to MiniProf and VAMPIRE alike."""
     if vampire.looks_like(lines):
         return "vampire"
-    if simpack.looks_like(lines) or suffix in (".prw", ".prr"):
+    if simpack.looks_like(lines):
         return "simpack"
     if miniprof.looks_like(lines) or suffix in (".whl", ".ban", ".rai", ".mpt"):
         return "miniprof"

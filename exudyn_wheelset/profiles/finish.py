@@ -27,7 +27,7 @@ from exudyn_wheelset.profiles.mending import (
 )
 from exudyn_wheelset.profiles.orientation import look_at
 from exudyn_wheelset.profiles.outliers import without_outliers, without_spikes
-from exudyn_wheelset.profiles.plausible import RAIL_TOP_RANGE
+from exudyn_wheelset.profiles.plausible import RAIL_TOP_RANGE, size_hint
 from exudyn_wheelset.profiles.profile import KINDS, Profile
 from exudyn_wheelset.profiles.units import unit_factor
 
@@ -43,6 +43,7 @@ _TAPE_TOLERANCE = 0.010
 _MOST_BACKSTEPS = 0.1
 _MOST_LEFT_OUT = 0.4
 _WIDE_GAP = 3e-3
+_NARROWEST_WHEEL = 0.03
 _UNDERCUT = 2e-5
 
 
@@ -116,12 +117,14 @@ def finish(raw: RawProfile, label: str, stem: str, options: Options) -> Profile:
         remarks.append("y turned to the other side as asked for")
     y, z = _shifted(y, z, kind, raw, options.shift, remarks)
     if kind == "wheel" and not y[0] < 0.0 < y[-1]:
+        width = float(y[-1] - y[0])
+        narrow = f"{size_hint(width)} " if width < _NARROWEST_WHEEL else ""
         raise fault(
             label,
             place,
-            f"y reaches from {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm and leaves out the tape "
-            f"circle y = 0; give shift_y={-y[0] - _TAPE_FROM_FLANGE_BACK:.6g} to put y = 0 "
-            f"{1e3 * _TAPE_FROM_FLANGE_BACK:g} mm from the first point of the flange",
+            f"{narrow}y reaches from {1e3 * y[0]:.2f} to {1e3 * y[-1]:.2f} mm and leaves out "
+            f"the tape circle y = 0; give shift_y={-y[0] - _TAPE_FROM_FLANGE_BACK:.6g} to put "
+            f"y = 0 {1e3 * _TAPE_FROM_FLANGE_BACK:g} mm from the first point of the flange",
         )
     if kind == "wheel" and not raw.trusted and low_face and not any(options.shift):
         beside = -y[0] - _TAPE_FROM_FLANGE_BACK

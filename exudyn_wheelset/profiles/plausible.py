@@ -55,7 +55,10 @@ def check_points(name: str, y: FloatArray, z: FloatArray) -> None:
 
 def size_hint(span: float) -> str:
     """A guess, in words, which unit was meant when a profile is `span` metres wide."""
-    guesses = (("mm", 1e-3), ("inch", 0.0254), ("metres, read as mm", 1e3), ("cm", 1e-2))
+    guesses = (
+        *(("mm", 1e-3), ("inch", 0.0254), ("metres, read as mm", 1e3), ("cm", 1e-2)),
+        ("inch", 25.4),
+    )
     for unit, factor in guesses:
         if 0.03 <= span * factor <= 0.2:
             return f"The numbers look like {unit}: name the unit."

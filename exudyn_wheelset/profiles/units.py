@@ -28,7 +28,7 @@ def unit_factor(
     if asked is not None:
         unit = unit_word(asked)
         if unit is None:
-            raise ProfileError(f"{label}: unit={asked!r}; use 'mm', 'm', 'cm' or 'inch'")
+            raise ProfileError(f"{label}: unit={asked!r}; use 'mm', 'm', 'cm', 'um' or 'inch'")
         if raw.unit not in (None, unit):
             remarks.append(f"read in {unit} as asked for, although the file says {raw.unit}")
     _check_lost_points(points, lines, label)
@@ -39,11 +39,13 @@ def unit_factor(
         elif 0.015 <= width <= _GREATEST_SPAN:
             unit = "m"
         else:
+            likely = [name for name, size in UNITS.items() if 0.06 <= width * size <= 0.2]
+            asked_for = f"unit={likely[0]!r}, if it is that" if likely else "unit="
             raise fault(
                 label,
                 int(lines[0]),
                 f"the numbers are {width:g} wide, which fits neither mm nor m; "
-                "add '# unit: mm' (m, cm, inch) on top, or give unit=",
+                f"add '# unit: mm' (m, cm, um, inch) on top, or give {asked_for}",
             )
         remarks.append(f"taken as {unit}, because the numbers are {width:g} wide")
     factor = UNITS[unit]

@@ -17,22 +17,29 @@ from __future__ import annotations
 import math
 import re
 
+import numpy as np
+
 from exudyn_wheelset.profiles.formats.raw import (
+    UNITS,
     RawProfile,
     coordinate,
     fault,
     number,
+    point_cells,
     shorten,
 )
 from exudyn_wheelset.profiles.formats.rows import find_table
+from exudyn_wheelset.profiles.orientation import look_at
 
 NAME = "MiniProf"
 TAPE_FROM_FLANGE_BACK = 70.0
+_WIDEST = 0.3
 _KEYS = re.compile(
     r"^\s*(XYPoints|ColumnDef|MPTypeNo|MPSerNo|ProgramName|RefPoint1|MPDC)\s*=", re.I
 )
 _COMMENT = ('"', "!", "%", "#")
-_DECIMAL_COMMAS = re.compile(r"(\s*[+-]?\d+,\d+(\s+|$)){2,}")
+_WHEEL_KEYS = {"wheeldiametertaperline", "wheeladjustpoint", "diametertaperline", "sd", "sh", "qr"}
+_RAIL_KEYS = {"rail", "railaligntype", "railangle", "crownradius", "crownr", "w1", "w2", "w3"}
 
 
 def looks_like(lines: list[str]) -> bool:
@@ -42,8 +49,13 @@ def looks_like(lines: list[str]) -> bool:
     return sum(bool(_KEYS.match(line)) for line in lines[:200]) >= 2
 
 
-def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
-    """Read a MiniProf file; the kind comes from the suffix where the caller gives none."""
+def read(
+    lines: list[str], label: str, kind: str | None = None, unit: str | None = "mm"
+) -> RawProfile:
+    """Read a MiniProf file; the kind comes from the suffix where the caller gives none.
+
+    unit: of the numbers, one of UNITS, for the place of the tape circle.
+    """
     raw = RawProfile(NAME, unit="mm")
     suffix = label.lower().rsplit(".", 1)[-1]
     first_line = lines[0].upper() if lines else ""
@@ -68,14 +80,20 @@ def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
         offsets.append(value)
         if value:
             raw.remarks.append(f"{axis} shifted by {value:g} mm ({key})")
-    wheel = (kind or raw.kind) == "wheel"
+    metre = UNITS[unit or "mm"]
+    wheel = (kind or raw.kind or _kind_of(header, raw, metre)) == "wheel"
     if wheel:
+        if sum(x + offsets[0] < -0.5 * TAPE_FROM_FLANGE_BACK for x in raw.y) > len(raw.y) // 2:
+            raw.y = [-x for x in raw.y]
+            offsets[0] = -offsets[0]
+            raw.remarks.append("X falls from the flange back on: turned")
         given = number(header.get("wheeldiametertaperline", ("", 0))[0])
         tape = given if given is not None and 50.0 <= given <= 100.0 else TAPE_FROM_FLANGE_BACK
+        tape *= 1e-3 / metre
         raw.y = [x + offsets[0] - tape for x in raw.y]
         raw.z = [-(y + offsets[1]) for y in raw.z]
         raw.remarks.append(
-            f"MiniProf wheel: y = 0 put {tape:g} mm from the flange back, z turned up"
+            f"MiniProf wheel: y = 0 put {tape:g} {unit} from the flange back, z turned up"
         )
     else:
         raw.y = [-(x + offsets[0]) for x in raw.y]
@@ -83,6 +101,21 @@ def read(lines: list[str], label: str, kind: str | None = None) -> RawProfile:
         raw.gauge_by_depth = True
         raw.remarks.append("MiniProf rail: y turned to the field side")
     return raw
+
+
+def _kind_of(header: dict[str, tuple[str, int]], raw: RawProfile, metre: float) -> str | None:
+    """Wheel or rail by the instrument's type (1xx wheels, 2xx rails), its results, the shape."""
+    type_number = header.get("mptypeno", ("", 0))[0]
+    if re.fullmatch(r"[12]\d\d", type_number):
+        return "wheel" if type_number[0] == "1" else "rail"
+    wheel = any(header.get(key, ("", 0))[0] for key in _WHEEL_KEYS)
+    if wheel != any(header.get(key, ("", 0))[0] for key in _RAIL_KEYS):
+        return "wheel" if wheel else "rail"
+    points = metre * np.array(sorted(zip(raw.y, raw.z, strict=True))).reshape(-1, 2)
+    if not 0.0 < np.ptp(points[:, :1]) < _WIDEST:
+        return None
+    look = look_at(points[:, 0], points[:, 1])
+    return None if look is None else look.kind
 
 
 def _header(
@@ -114,7 +147,7 @@ def _table(
         if text and not text.startswith(_COMMENT):
             texts.append((count, text))
     template = any(text.startswith("[") for _, text in texts[:5])
-    table = find_table(texts, _cells, label, join=template)
+    table = find_table(texts, point_cells, label, join=template)
     raw.remarks += table.remarks
     for line, tokens in table.rows:
         if len(tokens) <= max(columns):
@@ -139,16 +172,6 @@ def _table(
             )
         if round(announced) != len(raw.y):
             raw.remarks.append(f"XYPoints={text} but {len(raw.y)} points")
-
-
-def _cells(text: str) -> list[str]:
-    """The cells of a row; commas between digits of two columns are decimal signs."""
-    if ";" in text or not _DECIMAL_COMMAS.fullmatch(text):
-        separators = r"[\s;]+" if ";" in text and "," in text else r"[\s,;]+"
-        cells = [cell for cell in re.split(separators, text) if cell]
-    else:
-        cells = text.split()
-    return [cell.replace(",", ".") for cell in cells]
 
 
 def _template(raw: RawProfile, pieces: list[tuple[str, int]], label: str) -> None:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 from exudyn_wheelset.errors import ProfileError
 
-UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "inch": 0.0254}
+UNITS = {"mm": 1e-3, "m": 1.0, "cm": 1e-2, "um": 1e-6, "inch": 0.0254}
 _UNIT_WORDS = {
     "mm": "mm",
     "millimetre": "mm",
@@ -31,6 +31,11 @@ _UNIT_WORDS = {
     "metres": "m",
     "meters": "m",
     "cm": "cm",
+    "um": "um",
+    "µm": "um",
+    "μm": "um",
+    "micron": "um",
+    "microns": "um",
     "in": "inch",
     "inch": "inch",
     "inches": "inch",
@@ -43,6 +48,7 @@ _UNIT_WORDS = {
 _NUMBER = re.compile(
     r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?|[+-]?nan|[+-]?inf(?:inity)?", re.I
 )
+_DECIMAL_COMMAS = re.compile(r"(\s*[+-]?\d+,\d+(\s+|$)){2,}")
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _LARGEST_NUMBER = 1e7
 _MOST_BYTES = 5_000_000
@@ -133,13 +139,12 @@ def decode(data: bytes, label: str) -> tuple[str, list[str]]:
 
 
 def split_lines(text: str) -> list[str]:
-    """The lines of a text, whatever the operating system that wrote it."""
-    return _LINE_END.split(text)
+    """The lines of a text, whatever the operating system and the minus sign that wrote it."""
+    return _LINE_END.split(text.replace("\u2212", "-"))
 
 
 def number(token: str) -> float | None:
     """The value of a token that is a number and nothing else (Fortran's D exponent too)."""
-    token = token.replace("\u2212", "-")
     if not _NUMBER.fullmatch(token):
         return None
     return float(token.lower().replace("d", "e"))
@@ -162,6 +167,16 @@ def coordinate(token: str, label: str, line: int, column: str, *, finite: bool =
     if abs(value) > _LARGEST_NUMBER:
         raise fault(label, line, f"{column} = {value:g} is no length of a profile; mend the value")
     return value
+
+
+def point_cells(text: str) -> list[str]:
+    """The cells of a row of numbers; commas between digits of two columns are decimal signs."""
+    if ";" in text or not _DECIMAL_COMMAS.fullmatch(text):
+        separators = r"[\s;]+" if ";" in text and "," in text else r"[\s,;]+"
+        cells = [cell for cell in re.split(separators, text) if cell]
+    else:
+        cells = text.split()
+    return [cell.replace(",", ".") for cell in cells]
 
 
 def unit_word(text: str) -> str | None:

@@ -18,12 +18,15 @@ from datetime import datetime, timezone
 
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles.formats.raw import (
+    UNITS,
     RawProfile,
     coordinate,
     fault,
     listed,
     number,
+    point_cells,
     shorten,
+    unit_word,
 )
 from exudyn_wheelset.profiles.profile import Profile
 
@@ -71,7 +74,7 @@ def read(lines: list[str], label: str) -> RawProfile:
         if section:
             ended = _nest(open_sections, section[1], section[2], label, count)
         elif open_sections[-1:] == ["point"]:
-            tokens = re.split(r"[\s,;]+", text)
+            tokens = point_cells(text)
             if len(tokens) < 2:
                 raise fault(label, count, f"one value ({shorten(text)!r}); give y and z")
             weights = weights or len(tokens) > 2
@@ -84,9 +87,12 @@ def read(lines: list[str], label: str) -> RawProfile:
             raise fault(
                 label, count, f"{shorten(text)!r} outside a section; delete it or begin it with '!'"
             )
-    if open_sections or not ended:
+    if open_sections == ["spline"] and raw.lines:
+        raw.remarks.append("'spline.end' is missing")
+    elif open_sections or not ended:
         where = f"inside '{open_sections[-1]}.begin'" if open_sections else "without 'spline.end'"
-        raise fault(label, len(lines), f"the file ends {where}; it seems to be cut off")
+        mend = "export it again, or add 'point.end' and 'spline.end' if that is all there is"
+        raise fault(label, len(lines), f"the file ends {where}; it seems to be cut off: {mend}")
     by_suffix = {"prw": "wheel", "prr": "rail"}.get(label.lower().rsplit(".", 1)[-1])
     if raw.kind is None and by_suffix:
         raw.kind = by_suffix
@@ -169,9 +175,10 @@ def _keyword(
 ) -> None:
     if section == "header":
         if key == "type":
-            if value not in ("0", "1"):
+            parsed = number(value)
+            if parsed not in (0.0, 1.0):
                 raise fault(label, line, f"type = {shorten(value)!r}; use 0 (rail) or 1 (wheel)")
-            raw.kind, raw.kind_line = ("rail", "wheel")[int(value)], line
+            raw.kind, raw.kind_line = ("rail", "wheel")[int(parsed)], line
         return
     if key in _NUMERIC:
         parsed = number(value)
@@ -184,6 +191,8 @@ def _keyword(
         values[key] = parsed
         if key == "units.len.f":
             raw.unit_line = line
+    elif key == "units.len" and unit_word(value):
+        raw.unit = unit_word(value)
     elif key == "comment":
         raw.source = value.strip("'\"")
     elif key not in _TEXT:
@@ -232,6 +241,9 @@ def _process(raw: RawProfile, values: dict[str, float], label: str) -> None:
         raw.remarks.append(
             f"approx.smooth = {values['approx.smooth']:g} not used; give smoothing= instead"
         )
+    if "units.len.f" not in values and raw.unit is not None:
+        values["units.len.f"] = round(1.0 / UNITS[raw.unit], 9)
+        raw.remarks.append(f"unit {raw.unit} by units.len; units.len.f is missing")
     # Millimetres, whatever the file's unit, so that no number loses digits on the way.
     factor = 1000.0 / values.get("units.len.f", 1.0)
     if not math.isfinite(factor):

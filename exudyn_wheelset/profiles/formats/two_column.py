@@ -6,8 +6,10 @@ With the kind in such a header the file is taken as it is, in the frames of
 the profile's remarks. Other comment lines (#, %, !, //) and lines of words before the first
 numbers are skipped; a line of column names may carry the unit: "y [mm]; z [mm]".
 
-Columns are separated by blanks, tabs, semicolons or commas; a decimal comma is understood where
-another separator tells the columns apart.
+Columns are separated by blanks, tabs, semicolons, bars or commas; a decimal comma is understood
+where another separator or quotes tell the columns apart. Brackets around a row, lines that hold
+nothing but separators, and labels before the numbers are passed over. Of columns named for two
+sides `side` takes one.
 """
 
 from __future__ import annotations
@@ -49,7 +51,16 @@ _COLUMN_NAMES = (
         ),
     ),
 )
-_UNIT_KEYS = ("unit", "units", "einheit", "einheiten", "unité", "unite", "unidad", "unità", "enhet")
+_LABEL = re.compile(r"[A-Za-z_]\w*\s*[;,\t ]\s*(?=[\"']?[-+.]?\d)")
+_OTHER = {"left": "right", "right": "left"}
+_SIDE_WORDS = {
+    "left": re.compile(r"left|links|gauche|^[xyz][ _.-]?l\b|^l[ _.-]?[xyz]\b"),
+    "right": re.compile(r"right|rechts|droite|^[xyz][ _.-]?r\b|^r[ _.-]?[xyz]\b"),
+}
+_UNIT_KEYS = (
+    *("unit", "units", "length", "einheit", "einheiten"),
+    *("unité", "unite", "unidad", "unità", "enhet"),
+)
 _KIND_KEYS = ("kind", "type", "typ", "art", "object", "objekt", "tipo", "profile", "profil")
 _KIND_WORDS = {
     "wheel": ("wheel", "rad", "roue", "rueda", "ruota", "hjul"),
@@ -68,9 +79,10 @@ def read(lines: list[str], label: str, side: str = "left") -> RawProfile:
         if text.startswith(_COMMENT):
             _header(raw, text, count, label)
             continue
-        text = _without_comment(text)
-        if text:
+        text = _without_comment(text).replace("|", ";").strip("{}()[] \t")
+        if text.strip(" \t,;\"'"):
             texts.append((count, text))
+    texts = _without_labels(raw, texts)
     numeric = [(count, text) for count, text in texts if looks_numeric(text)]
     if not numeric:
         raise fault(label, None, "no line with numbers; give lines with y and z")
@@ -81,7 +93,7 @@ def read(lines: list[str], label: str, side: str = "left") -> RawProfile:
     rows, width = table.rows, table.width
     words = [(count, text) for count, text in texts if count < rows[0][0]]
     _words_of_header(raw, words)
-    first, second, named = _columns(raw, words, split)
+    first, second, named = _columns(raw, words, split, width, side)
     if not named and width > 2:
         kept = columns_by_content(rows, width)
         first, second = kept[:2] if len(kept) >= 2 else (0, 1)
@@ -149,6 +161,18 @@ def _without_comment(text: str) -> str:
     return text.strip()
 
 
+def _without_labels(raw: RawProfile, texts: list[tuple[int, str]]) -> list[tuple[int, str]]:
+    """Points that all have a label before them, without it."""
+    labelled = [bool(_LABEL.match(text)) for _, text in texts]
+    if sum(labelled) < 8 or any(looks_numeric(text) for _, text in texts):
+        return texts
+    raw.remarks.append("labels before the points not read")
+    return [
+        (count, _LABEL.sub("", text) if is_labelled else text)
+        for (count, text), is_labelled in zip(texts, labelled, strict=True)
+    ]
+
+
 def _separator(texts: list[str], label: str, line: int) -> tuple[Split, bool, str]:
     """How to split a row, whether commas are decimal, and the separator in words."""
     sample = texts[:200]
@@ -179,6 +203,13 @@ def _separator(texts: list[str], label: str, line: int) -> tuple[Split, bool, st
         if often(lambda text: "\t" in text):
             return with_points(_by_tabs), True, "tabs"
         return with_points(str.split), True, "blanks"
+    if often(lambda text: text.count('"') >= 4 and re.search(r'"[+-]?\d*,\d', text)):
+        quoted = re.compile(r'"([^"]*)"|([^",\s]+)')
+        return (
+            with_points(lambda text: [a or b for a, b in quoted.findall(text)]),
+            True,
+            "commas between quotes",
+        )
     if often(lambda text: re.fullmatch(r"[+-]?\d+,\d+,[+-]?\d+,\d+", text)):
         raise fault(
             label,
@@ -192,11 +223,21 @@ def _by_tabs(text: str) -> list[str]:
     return [cell.strip().strip('"') for cell in re.split(r"\t+|\s{2,}", text.strip())]
 
 
-def _columns(raw: RawProfile, words: list[tuple[int, str]], split: Split) -> tuple[int, int, bool]:
+def _columns(
+    raw: RawProfile, words: list[tuple[int, str]], split: Split, width: int, side: str
+) -> tuple[int, int, bool]:
     """Columns of y and z by the line of column names, if there is one; takes the unit from it."""
     for line, text in reversed(words[-4:]):
         cells = [str(cell).lower().strip().strip('"') for cell in split(text)]
         named = [cell for cell in cells if not re.fullmatch(r"[\[(].*[\])]", cell)]
+        if len(named) > width:
+            named = named[len(named) - width :]
+        if width >= 4:
+            of_side = [k for k, cell in enumerate(named) if _SIDE_WORDS[side].search(cell)]
+            others = [k for k, cell in enumerate(named) if _SIDE_WORDS[_OTHER[side]].search(cell)]
+            if len(of_side) == 2 and len(others) >= 2:
+                raw.remarks.append(f"the columns of the {side} side taken (side={side!r})")
+                return of_side[0], of_side[1], True
         names = [re.sub(r"[^a-zà-ÿ].*$", "", cell) for cell in named]
         units = [unit_word(m[1]) for cell in cells if (m := re.search(r"[\[(](.*?)[\])]", cell))]
         if not units and all(unit_word(cell) for cell in cells):

@@ -36,22 +36,23 @@ def looks_like(lines: list[str]) -> bool:
 
 def read(lines: list[str], label: str, side: str = "left") -> RawProfile:
     """Read one side of a VAMPIRE profile; ProfileError names file, line and mend."""
-    if len(lines) < 5:
+    head = [(count, line) for count, line in enumerate(lines, start=1) if line.strip()][:4]
+    if len(head) < 4:
         raise fault(label, len(lines), "the file ends in its header; it seems to be cut off")
     wheel = lines[0].strip().upper().startswith("WHEELPROFILE")
     raw = RawProfile(
         NAME,
-        name=" ".join(lines[1].split()),
+        name=" ".join(head[1][1].split()),
         kind="wheel" if wheel else "rail",
         kind_line=1,
         unit="mm",
     )
-    datum = _datum(lines[2], "TREADDATUM" if wheel else "GAUGEPOINT", wheel, label)
-    distance = _keyword(lines[3], "FLANGEBACK" if wheel else "GAUGE", label, 4)
+    datum = _datum(head[2], "TREADDATUM" if wheel else "GAUGEPOINT", wheel, label)
+    distance = _keyword(head[3], "FLANGEBACK" if wheel else "GAUGE", label)
     other: list[tuple[float, float]] = []
     column = 2 if side == "right" else 0
     sign = 1.0 if side == "right" else -1.0
-    for count, line in enumerate(lines[4:], start=5):
+    for count, line in enumerate(lines[head[3][0] :], start=head[3][0] + 1):
         text = re.split(r'["!%]', line, maxsplit=1)[0].strip().strip("\x1a")
         tokens = [token for token in re.split(r"[\s,;]+", text) if token]
         if not tokens:
@@ -93,19 +94,23 @@ def _differs(
     )
 
 
-def _datum(line: str, word: str, wheel: bool, label: str) -> float:
+def _datum(place: tuple[int, str], word: str, wheel: bool, label: str) -> float:
+    count, line = place
     names = _TREAD_DATUM if wheel else _GAUGE_POINT
     tokens = line.upper().replace("=", " ").split()
     if not tokens or tokens[0] != word:
-        raise fault(label, 3, f"{shorten(line)!r}; it gives {word}")
+        raise fault(label, count, f"{shorten(line)!r}; it gives {word}")
     if len(tokens) >= 3 and tokens[1] == "CUSTOM":
-        return _positive(tokens[2], word, label, 3)
+        return _positive(tokens[2], word, label, count)
     if len(tokens) >= 2 and tokens[1] in names:
         return names[tokens[1]]
-    raise fault(label, 3, f"{shorten(line)!r}; use {', '.join(names)} or CUSTOM with millimetres")
+    raise fault(
+        label, count, f"{shorten(line)!r}; use {', '.join(names)} or CUSTOM with millimetres"
+    )
 
 
-def _keyword(line: str, word: str, label: str, count: int) -> float:
+def _keyword(place: tuple[int, str], word: str, label: str) -> float:
+    count, line = place
     tokens = line.upper().replace("=", " ").split()
     if len(tokens) < 2 or tokens[0] != word:
         raise fault(label, count, f"{shorten(line)!r}; it gives {word} in millimetres")
