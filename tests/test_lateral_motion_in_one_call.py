@@ -7,7 +7,7 @@ of two such methods stays below 1e-4 of the scales (1 mm, 1 mrad).
 import numpy as np
 import pytest
 
-from exudyn_wheelset import LateralWheelset
+from exudyn_wheelset import LateralWheelset, paper_parameters
 from exudyn_wheelset.catalogue.by_name import vehicle_system
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
@@ -42,3 +42,20 @@ def test_it_ends_where_the_gauge_is_lost():
     kept = caught.value.states
     assert 0 < len(kept) < 601
     assert np.abs(kept[:, 0]).max() <= system.lateral_limit
+
+
+@pytest.mark.parametrize(("creep", "speed"), [("polach-kalker", 20.0), ("polach", 21.0)])
+def test_rough_motion_settles_to_the_same_cycle(creep, speed):
+    """Another method at 2e-5 a step: amplitude and period of the cycle to 1e-3."""
+    accurate = LateralWheelset(
+        "profiled", paper_parameters(1), creep=creep, free_spin=True, wheel="S1002"
+    )
+    times = np.linspace(0.0, 18.0, 3601)
+    found = []
+    for system in (accurate, accurate.rough()):
+        y = system.simulate([2.6e-3, 0.0, 0.0, 0.0], speed, times)[2400:, 0]
+        upward = np.flatnonzero((y[:-1] < 0.0) & (y[1:] >= 0.0))
+        at = upward - y[upward] / (y[upward + 1] - y[upward])
+        found.append((0.5 * np.ptp(y), (at[-1] - at[0]) / (len(at) - 1)))
+    assert found[0][0] > 1e-3
+    np.testing.assert_allclose(*found, rtol=1e-3)

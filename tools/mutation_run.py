@@ -23,7 +23,7 @@ import signal
 import sys
 import tempfile
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 import exudyn  # noqa: F401
@@ -36,6 +36,7 @@ import scipy.interpolate
 import scipy.optimize
 import scipy.special  # noqa: F401
 from mutants import Mutant, mutants_in, mutated
+from mutation_upper import UPPER_GROUPS, Group
 from numba.misc.appdirs import AppDirs
 
 matplotlib.use("Agg")
@@ -45,26 +46,6 @@ PACKAGE = "exudyn_wheelset"
 PAGE = REPOSITORY / "docs" / "mutation.md"
 
 
-@dataclass(frozen=True)
-class Group:
-    """Modules and the tests that are to notice.
-
-    compiled: False runs the kernels as Python, which saves compiling every mutant; deselected:
-    tests left out (an expression of pytest's -k), for their time.
-    """
-
-    modules: tuple[str, ...]
-    tests: tuple[str, ...]
-    compiled: bool = True
-    deselected: str = ""
-
-
-_LINEAR_TESTS = (
-    "test_linearisation_closed_forms.py",
-    "test_linearisation_gyroscope.py",
-    "test_linearisation_rolling_cone.py",
-    "test_modes_and_windows.py",
-)
 GROUPS = {
     "creep": Group(
         (
@@ -100,16 +81,6 @@ GROUPS = {
         ("test_contact_locus_of_a_turned_wheel.py",),
         compiled=False,
     ),
-    "linearisation": Group(
-        (
-            "stability/linear/linearisation.py",
-            "stability/linear/critical_speed.py",
-            "stability/linear/crossings.py",
-            "stability/linear/spectra.py",
-            "stability/linear/modes.py",
-        ),
-        _LINEAR_TESTS,
-    ),
     "reduction": Group(
         ("systems/reduction.py",), ("test_reduction_by_rotation_matrices.py",), compiled=False
     ),
@@ -133,6 +104,7 @@ GROUPS = {
         compiled=False,
     ),
 }
+GROUPS |= UPPER_GROUPS
 
 
 def mutants_of(module: str) -> list[Mutant]:

@@ -11,6 +11,7 @@ paper leaves out and why it is set as it is.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -178,6 +179,7 @@ class LateralWheelset(DynamicSystem):
         self._p = p
         self._put_law_parameters()
         self._sides = np.zeros((2, 12))
+        self._pair = motion.ACCURATE
 
     def _put_law_parameters(self) -> None:
         values = creep_parameters(self._law, **self._law_parameters)
@@ -278,6 +280,7 @@ class LateralWheelset(DynamicSystem):
             times,
             self.scales,
             float(self.lateral_limit),
+            self._pair,
             samples,
         )
         if ending == motion.FINISHED:
@@ -293,6 +296,11 @@ class LateralWheelset(DynamicSystem):
             samples[:filled],
             outcome,
         )
+
+    def rough(self) -> LateralWheelset:
+        made = copy(self)
+        made._pair = motion.ROUGH
+        return made
 
     def contact_state(self, state: np.ndarray, speed: float) -> dict[str, np.ndarray]:
         """Forces, creepages and patches (left, right) at a state, by name."""

@@ -122,6 +122,13 @@ class DynamicSystem(ABC):
             result[row] = self.jacobian(state, speed)
         return result
 
+    def rough(self) -> DynamicSystem:
+        """The same equations whose motion is only as accurate as settling amplitudes need.
+
+        Itself, unless it has a cheaper way of simulating.
+        """
+        return self
+
     def speed_derivative(self, state: Array, speed: float) -> Array:
         """Derivative df/dspeed (n,) at a state, by central differences."""
         step = DIFFERENCE_STEP * max(1.0, abs(speed))

@@ -80,6 +80,7 @@ def hunting_at(
     except AnalysisError:
         return None
     settling = replace(settling, rest=max(settling.rest, smallest))
+    system = system.rough()
     for words, state in starts:
         motion = WatchedMotion(system, speed, state, period, watched, settling)
         if motion.decide() in (Ending.DIED_OUT, Ending.CONTACT_LOST):

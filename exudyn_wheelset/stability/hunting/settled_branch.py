@@ -13,7 +13,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.stability.hunting.branch import Branch, Fold
@@ -22,9 +21,12 @@ from exudyn_wheelset.stability.hunting.settled_orbit import orbit_of, settled_mo
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
-# Steps to either end of the range of speeds, and the width of a jump's bracket relative to it.
+# Steps to either end of the range of speeds, and the width of a jump's bracket relative to the
+# speed: beside the fold a motion lingers for hundreds of cycles.
 STEPS = 8
-RESOLUTION = 2e-3
+RESOLUTION = 1e-3
+# A motion that has fallen to this share of its neighbour's amplitude has left the branch.
+JUMPED = 0.5
 
 
 def settled_branch(
@@ -40,7 +42,7 @@ def settled_branch(
     `why` is the reason for simulating, for the record. Raises AnalysisError if it does not hunt.
     """
     settling = Settling(tolerance=2e-3, cycles=150)
-    first = settled_motion(system, state, speed, settling=settling)
+    first = settled_motion(system.rough(), state, speed, settling=settling)
     down, lower = _one_way(first, speeds[0], settling, report)
     up, upper = _one_way(first, speeds[1], settling, report)
     orbits = [*reversed(down), orbit_of(first), *up]
@@ -72,6 +74,20 @@ def settled_branch(
     )
 
 
+class _Neighbour(WatchedMotion):
+    """The motion at a speed from the state of a settled one beside it; over once it has fallen."""
+
+    def __init__(self, last: WatchedMotion, speed: float, settling: Settling) -> None:
+        state = last.system.carry_over(last.state, last.speed, speed)
+        super().__init__(last.system, speed, state, last.period, last.watched, settling)
+        self.least = JUMPED * last.means[-1]
+
+    def advance(self) -> Ending:
+        verdict = super().advance()
+        lost = verdict is Ending.CONTACT_LOST
+        return verdict if lost or self.means[-1] > self.least else Ending.DIED_OUT
+
+
 def _one_way(
     first: WatchedMotion,
     end: float,
@@ -84,19 +100,14 @@ def _one_way(
         return [], None
     found: list[Orbit] = []
     last, dead = first, None
-    tolerance = RESOLUTION * max(abs(end - first.speed), 1e-3 * abs(first.speed))
+    tolerance = RESOLUTION * abs(first.speed)
     while True:
         speed = last.speed + step if dead is None else 0.5 * (last.speed + dead)
         if (end - speed) * step < 0.0:
             speed = end
-        try:
-            carried = last.system.carry_over(last.state, last.speed, speed)
-            motion = settled_motion(last.system, carried, speed, last.period, settling=settling)
-            jumped = max(motion.means[-1], last.means[-1]) > 2.0 * min(
-                motion.means[-1], last.means[-1]
-            )
-        except AnalysisError:
-            jumped = True
+        motion = _Neighbour(last, speed, settling)
+        jumped = motion.decide() in (Ending.DIED_OUT, Ending.CONTACT_LOST)
+        jumped = jumped or motion.means[-1] > last.means[-1] / JUMPED
         if jumped:
             dead = speed
         else:
