@@ -8,7 +8,7 @@ mirrored for the right one.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
 from typing import Any
@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.checking import moments_of_inertia, number, positive, unknown
+from exudyn_wheelset.contact.friction import FLANGE, TOP, TREAD, frictions
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
@@ -28,6 +29,10 @@ ProfileSource = Profile | str | PathLike
 
 # Names of the normal contact models and their numbers in the kernels.
 NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips": 3, "energy": 4}
+
+
+# The creep law whose friction falls with slip by itself; in a contact the contact sees to that.
+_FALLING = "polach-2005"
 
 
 def _profile_of_kind(source: ProfileSource, kind: str) -> Profile:
@@ -90,11 +95,17 @@ class Contact:
     point), "virtual-penetration", "energy" (the gradient of one stored energy, at three to seven
     times the cost) or "strips" (patches that are no ellipse, near-conformal contact, at some
     thirty times); creep: name of a creep law, or a compiled function of one's own
-    (`register_creep_law`); friction [-]; shear_modulus [Pa];
-    poisson [-]; damping [s/m] of the normal contact, whose force it makes 1 + damping times the
-    closing speed as large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by
-    some 4 % of critical). law_parameters: those of the creep law, by name, here as pairs sorted by
-    name; they may be given as keywords of their own as well.
+    (`register_creep_law`); friction [-] of both rails everywhere; shear_modulus [Pa]; poisson [-];
+    damping [s/m] of the normal contact, whose force it makes 1 + damping times the closing speed as
+    large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by some 4 % of critical).
+    law_parameters: those of the creep law, by name, here as pairs sorted by name; they may be given
+    as keywords of their own as well.
+    Friction by rail and zone, each None where it is not of its own: flange_friction (flange on
+    gauge face), top_friction (top of rail), right_friction, right_flange_friction,
+    right_top_friction; what else is the right rail's is the left one's. friction_ratio A and
+    friction_decay B [s/m] let all of them fall with the slip velocity w [m/s] of a patch, mu_0
+    ((1 - A) exp(-B w) + A), for every creep law; None: those of "polach-2005" for that law, 1 and
+    0 for the others (contact/friction.py).
     These are the only defaults of a contact in the package. Raises WheelsetError for unknown
     names, with the nearest known one, and for impossible values.
     """
@@ -106,6 +117,13 @@ class Contact:
     poisson: float = 0.28
     damping: float = 0.0
     law_parameters: tuple[tuple[str, float], ...] = ()
+    right_friction: float | None = None
+    flange_friction: float | None = None
+    right_flange_friction: float | None = None
+    top_friction: float | None = None
+    right_top_friction: float | None = None
+    friction_ratio: float | None = None
+    friction_decay: float | None = None
 
     def __init__(
         self,
@@ -116,12 +134,27 @@ class Contact:
         poisson: float = poisson,
         damping: float = damping,
         law_parameters: Mapping[str, float] | Iterable[tuple[str, float]] = (),
+        right_friction: float | None = None,
+        flange_friction: float | None = None,
+        right_flange_friction: float | None = None,
+        top_friction: float | None = None,
+        right_top_friction: float | None = None,
+        friction_ratio: float | None = None,
+        friction_decay: float | None = None,
         **more_law_parameters: float,
     ) -> None:
         if normal not in NORMAL_MODELS:
             raise unknown("normal contact", normal, list(NORMAL_MODELS))
         own = {**dict(law_parameters), **more_law_parameters}
         check_contact_names(creep, own)
+        if creep == _FALLING:
+            if "speed" in own:
+                raise WheelsetError(
+                    f"speed = {own['speed']!r} of creep law {creep!r}: leave it out, a contact "
+                    "knows the speed of its wheelset"
+                )
+            friction_ratio = own.pop("friction_ratio", friction_ratio)
+            friction_decay = own.pop("friction_decay", friction_decay)
         # Refuses what the law does not take together or in that range.
         creep_parameters(creep, **own)
         own = creep_law(creep).expand(own)
@@ -134,9 +167,56 @@ class Contact:
         put(self, "poisson", number("poisson", poisson, "-", 0.0, 0.5))
         put(self, "damping", number("damping", damping, "s/m", 0.0, 1e3))
         put(self, "law_parameters", tuple(sorted((k, float(v)) for k, v in own.items())))
+        for name, value, unit, high in (
+            ("right_friction", right_friction, "-", 5.0),
+            ("flange_friction", flange_friction, "-", 5.0),
+            ("right_flange_friction", right_flange_friction, "-", 5.0),
+            ("top_friction", top_friction, "-", 5.0),
+            ("right_top_friction", right_top_friction, "-", 5.0),
+            ("friction_ratio", friction_ratio, "-", 1.0),
+            ("friction_decay", friction_decay, "s/m", 1e6),
+        ):
+            put(self, name, None if value is None else number(name, value, unit, 0.0, high))
+        given = (self.friction_ratio is None, self.friction_decay is None)
+        if creep != _FALLING and given[0] != given[1]:
+            raise WheelsetError(
+                f"friction_ratio = {friction_ratio!r}, friction_decay = {friction_decay!r}: give "
+                "both, such as 0.4 and 0.6 s/m of dry rails, or neither"
+            )
+
+    @property
+    def falling_friction(self) -> tuple[float, float]:
+        """A [-] and B [s/m] of the friction that falls with slip."""
+        law = creep_law(self.creep)
+        own = {one.name: one.default for one in law.parameters if law.name == _FALLING}
+        ratio, decay = self.friction_ratio, self.friction_decay
+        return (
+            own.get("friction_ratio", 1.0) if ratio is None else ratio,
+            own.get("friction_decay", 0.0) if decay is None else decay,
+        )
+
+    def mirrored(self) -> Contact:
+        """The contact with the left and the right rail exchanged."""
+        left, right = frictions(self).tolist()
+        if left == right:
+            return self
+        return replace(
+            self,
+            friction=right[TREAD],
+            right_friction=left[TREAD],
+            flange_friction=right[FLANGE],
+            right_flange_friction=left[FLANGE],
+            top_friction=right[TOP],
+            right_top_friction=left[TOP],
+        )
 
 
 CONTACT_NUMBERS = ("normal", "creep", "friction", "shear_modulus", "poisson", "damping")
+# Not in the signatures of the functions that take a contact by keywords.
+FURTHER_NUMBERS = (
+    "right_friction", "flange_friction", "right_flange_friction", "top_friction",
+    "right_top_friction", "friction_ratio", "friction_decay",
+)  # fmt: skip
 
 
 def check_contact_names(creep: Any, names: Iterable[str], others: Iterable[str] = ()) -> None:
@@ -148,8 +228,8 @@ def check_contact_names(creep: Any, names: Iterable[str], others: Iterable[str] 
     law = creep_law(creep)
     of_law = [*(parameter.name for parameter in law.parameters), *law.shorthands]
     for name in names:
-        if name not in of_law:
-            known = [*of_law, *CONTACT_NUMBERS, *others]
+        if name not in of_law and name not in FURTHER_NUMBERS:
+            known = [*of_law, *CONTACT_NUMBERS, *FURTHER_NUMBERS, *others]
             raise unknown(f"parameter of creep law {law.name!r}, or option", name, known)
 
 

@@ -4,7 +4,8 @@ For each patch, in the triad (x along the track, lateral tangent, normal n from 
 - normal force N = N_Hertz(delta) (1 + damping delta') >= 0, a dissipative term that vanishes with
   the penetration (Hunt and Crossley 1975), delta' = -n.v;
 - creepages from the exact velocity of the wheel's particle at the contact point (creepage.py);
-- creep force by the chosen law; wrench about the wheelset's centre in the track frame.
+- creep force by the chosen law with the patch's friction (friction.py); wrench about the
+  wheelset's centre in the track frame.
 V is the forward speed over the rails.
 
 Rails: shape and velocity are two things. A rail of lateral and vertical shift y(s), z(s) at the
@@ -35,6 +36,7 @@ from exudyn_wheelset.addresses import numbers_at
 from exudyn_wheelset.apart import Apart
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
+from exudyn_wheelset.contact.friction import patch_friction
 from exudyn_wheelset.contact.layout import (
     PARAMETER_COUNT,
     PARAMETERS,
@@ -59,12 +61,12 @@ _FASTSIM = CREEP_LAWS["fastsim"].number
 
 
 @compiled(inline="always")
-def _law_force(creepage, ellipse, damping, parameters):
+def _law_force(creepage, ellipse, damping, friction, parameters):
     """Creep force (F_x, F_y, M_z) of the chosen law on an ELLIPSE under a damped normal force."""
     return creep_kernel(
         int(parameters.law), creepage.x, creepage.y, creepage.spin, ellipse.a, ellipse.b,
-        damping * ellipse.force, parameters.friction, parameters.shear_modulus,
-        parameters.poisson, parameters.law_parameters,
+        damping * ellipse.force, friction, parameters.shear_modulus, parameters.poisson,
+        parameters.law_parameters,
     )  # fmt: skip
 
 
@@ -78,8 +80,9 @@ def _patch_creep(k, patches, shares, count, parameters):
     if share.damping <= 0.0:
         return fx, fy, mz
     creepage = Creepage(patches[k].creep_x, patches[k].creep_y, patches[k].spin)
+    friction = patches[k].friction
     if share.separation > 0.0:
-        fx, fy, mz = _law_force(creepage, share.own, share.damping, parameters)
+        fx, fy, mz = _law_force(creepage, share.own, share.damping, friction, parameters)
         fx *= share.separation
         fy *= share.separation
         mz *= share.separation
@@ -94,7 +97,7 @@ def _patch_creep(k, patches, shares, count, parameters):
                     creepage.y + rest * (patches[j].creep_y - creepage.y),
                     creepage.spin + rest * (patches[j].spin - creepage.spin),
                 )
-        gx, gy, gz = _law_force(creepage, share.merged, share.damping, parameters)
+        gx, gy, gz = _law_force(creepage, share.merged, share.damping, friction, parameters)
         rest = (1.0 - share.separation) * share.share
         fx += rest * gx
         fy += rest * gy
@@ -172,6 +175,8 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             closing = -(ny * slip_y + nz * slip_z + patch.twist / patch.normal_force * about)
             shares[k].damping = max(1.0 + options.damping * closing, 0.0)
             patch.creep_x, patch.creep_y, patch.spin = creepage_at(slip, px, py, pz, ny, nz)
+            slipping = slip.speed * math.hypot(patch.creep_x, patch.creep_y)
+            patch.friction = patch_friction(options, hand, patch.angle, slipping)
         for k in range(count):
             patch = patches[k]
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]

@@ -54,7 +54,7 @@ class Patch:
     [m], position (3) [m] from the wheelset's centre and normal (3), track frame; energy [J]
     elastic energy stored; peak_pressure [Pa]; twist [N m] moment about the normal of the normal
     pressures alone, for a patch whose parts stand at different leads (yaw), counted as on the
-    left wheel: on the right one it turns the other way.
+    left wheel: on the right one it turns the other way; friction [-] coefficient, at its slip.
     """
 
     wheel_y: float
@@ -76,6 +76,7 @@ class Patch:
     energy: float
     peak_pressure: float
     twist: float
+    friction: float
 
 
 def _record(*columns: tuple[Any, ...]) -> np.dtype:
@@ -114,12 +115,13 @@ SIDE = _record(
 )  # fmt: skip
 HEADER = 2 * SIDE.itemsize // 8
 
-# law: number of the creep law, law_parameters: its own; normal: HERTZ and so on; rail_speed [m/s]:
-# at which the rails run backwards, in a model that stands in a moving frame.
+# friction: by rail and zone, ratio and decay with slip: friction.py; law: number of the creep law,
+# law_parameters: its own; normal: HERTZ and so on; rail_speed [m/s]: at which the rails run
+# backwards, in a model that stands in a moving frame.
 PARAMETERS = _record(
-    ("friction", "f8"), ("shear_modulus", "f8"), ("poisson", "f8"), ("damping", "f8"),
-    ("law", "f8"), ("normal", "f8"), ("rail_speed", "f8"), ("spare", "f8"),
-    ("law_parameters", "f8", (8,)),
+    ("friction", "f8", (2, 3)), ("friction_ratio", "f8"), ("friction_decay", "f8"),
+    ("shear_modulus", "f8"), ("poisson", "f8"), ("damping", "f8"),
+    ("law", "f8"), ("normal", "f8"), ("rail_speed", "f8"), ("law_parameters", "f8", (8,)),
 )  # fmt: skip
 
 # Depths [m] at the node, before and behind it; valley: node of the valley before it.

@@ -59,7 +59,7 @@ def march(rise_x, rise_y, turn_y, cells):
 @compiled(fastmath=AS_REAL_NUMBERS)
 def _patch_flexibilities(share, patch, parameters):
     """Flexibilities of the patch's ellipse, blended with the merged one's while lobes merge."""
-    limit = parameters.friction * share.damping
+    limit = patch.friction * share.damping
     kind = parameters.law_parameters[2]
     soft_x, soft_y, soft_spin = flexibilities(
         patch.creep_x, patch.creep_y, patch.spin, share.own.a, share.own.b,
@@ -83,7 +83,7 @@ def strip_traction(strips, share, patch, slip, parameters):
     soft_x, soft_y, soft_spin = _patch_flexibilities(share, patch, parameters)
     ny, nz = patch.normal[1], patch.normal[2]
     cells = int(parameters.law_parameters[0])
-    limit = parameters.friction * share.damping * 0.375 * math.pi
+    limit = patch.friction * share.damping * 0.375 * math.pi
     if soft_x == 0.0 or limit <= 0.0:
         return Traction(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     for k in range(share.first_strip, share.first_strip + share.strip_count):

@@ -28,6 +28,7 @@ from exudyn_wheelset.contact.descriptions import (
     check_contact_names,
 )
 from exudyn_wheelset.contact.forces import FORCES, wheelset_forces
+from exudyn_wheelset.contact.friction import frictions
 from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
@@ -80,8 +81,10 @@ def contact_parameters(
     )
     parameters = np.zeros(kernel.PARAMETER_COUNT)
     record = parameters.view(kernel.PARAMETERS)[0]
-    for name in ("friction", "shear_modulus", "poisson", "damping"):
+    for name in ("shear_modulus", "poisson", "damping"):
         record[name] = getattr(chosen, name)
+    record["friction"] = frictions(chosen)
+    record["friction_ratio"], record["friction_decay"] = chosen.falling_friction
     record["law"] = creep_law(chosen.creep).number
     record["normal"] = NORMAL_MODELS[chosen.normal]
     values = creep_parameters(chosen.creep, **dict(chosen.law_parameters))

@@ -4,10 +4,11 @@ Source: O. Polach, Creep forces in simulations of traction vehicles running on a
 Wear 258 (2005). With eps of Polach 1999 (exudyn_wheelset.creep.polach):
     F = (2 Q f/pi) (k_A eps/(1 + (k_A eps)^2) + atan(k_S eps)),       k_S <= k_A <= 1
     f = mu_0 ((1 - A) exp(-B w) + A),     w = V hypot(s_x, s_y) [m/s].
-`friction` is mu_0, friction at no slip. The speed V [m/s] is a parameter that the caller keeps up
-to date; at V = 0 friction does not fall. Spin acts as in 1999, its linear stiffness reduced by
-(k_A + k_S)/2 as that of the creepage is. Typical values: dry k_A 1.0, k_S 0.4, mu_0 0.55, A 0.4,
-B 0.6 s/m (the defaults but for mu_0); wet 0.3, 0.1, 0.3, 0.4, 0.2.
+`friction` is mu_0, friction at no slip. The speed V [m/s] is a parameter; at V = 0 friction does
+not fall: a contact lets it fall before it asks the law (contact/friction.py). Spin acts as in 1999,
+its linear stiffness reduced by (k_A + k_S)/2 as that of the creepage is. Typical values: dry
+k_A 1.0, k_S 0.4, mu_0 0.55, A 0.4, B 0.6 s/m (the defaults but for mu_0); wet 0.3, 0.1, 0.3, 0.4,
+0.2.
 """
 
 from __future__ import annotations

@@ -56,6 +56,8 @@ MOST_OWN_PARAMETERS = 7
 _ARGUMENTS = {
     *("creep_x", "creep_y", "spin", "a", "b", "normal_force", "friction", "shear_modulus"),
     *("poisson", "law", "normal", "creep", "damping", "contact", "law_parameters"),
+    *("friction_ratio", "friction_decay", "right_friction", "flange_friction", "top_friction"),
+    *("right_flange_friction", "right_top_friction"),
 }
 
 

@@ -62,7 +62,7 @@ def patches_of(mbs: Any, items: WheelsetItems) -> tuple[CreepPatch, ...]:
             a=patch.a,
             b=patch.b,
             normal_force=patch.normal_force,
-            friction=float(parameters["friction"]),
+            friction=patch.friction,
             shear_modulus=float(parameters["shear_modulus"]),
             poisson=float(parameters["poisson"]),
             parameters=values,

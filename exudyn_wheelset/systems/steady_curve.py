@@ -20,7 +20,6 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
-from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.layout import Patch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
@@ -41,7 +40,7 @@ class SteadyCurve:
 
     state (n,): of the vehicle's system, where a motion may begin; motion: its one sample as data,
     with all that is read off a motion; patches: by wheelset and side, in the axes of the track at
-    the wheelset; friction: of the contact; system: name, states and settings.
+    the wheelset; system: name, states and settings.
     """
 
     radius: float
@@ -50,7 +49,6 @@ class SteadyCurve:
     state: Array
     motion: Motion
     patches: Mapping[tuple[str, str], tuple[Patch, ...]]
-    friction: float
     system: DynamicSystem = field(repr=False)
 
     @property
@@ -98,7 +96,7 @@ class SteadyCurve:
         """Creep force over friction times normal force of every patch, by wheelset and side."""
         return {
             wheel: tuple(
-                float(np.hypot(patch.fx, patch.fy) / (self.friction * patch.normal_force))
+                float(np.hypot(patch.fx, patch.fy) / (patch.friction * patch.normal_force))
                 for patch in patches
             )
             for wheel, patches in self.patches.items()
@@ -146,7 +144,6 @@ def steady_curve(
         state,
         motion,
         MappingProxyType(_patches(system, state)),
-        float(system.contacts[0].parameters.view(kernel.PARAMETERS)["friction"][0]),
         system,
     )
 

@@ -332,6 +332,7 @@ class Vehicle:
                 for load in self.loads
             ),
             track=_mirrored_track(self.track),
+            contact=self.contact.mirrored(),
         )
 
 

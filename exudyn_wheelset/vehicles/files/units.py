@@ -29,6 +29,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import fields
 
 import numpy as np
 
@@ -103,7 +104,10 @@ def _check_track(vehicle: Vehicle) -> None:
     track, contact = vehicle.track, vehicle.contact
     _within("track", "", "gauge_depth", track.gauge_depth, 1e-3, 0.05, "m")
     _within("track", "", "inclination", abs(track.inclination), 1e-3, 0.2, "-")
-    _within("contact", "", "friction", contact.friction, 0.01, 1.5, "-")
+    for name in fields(contact):
+        value = getattr(contact, name.name)
+        if name.name.endswith("friction") and value is not None:
+            _within("contact", "", name.name, value, 0.01, 1.5, "-")
     _within("contact", "", "shear_modulus", contact.shear_modulus, 1e9, 1e12, "Pa")
     _within("contact", "", "poisson", contact.poisson, 0.05, 0.5, "-")
     _within("", "", "gravity", vehicle.gravity, 1.0, 30.0, "m/s^2")

@@ -143,7 +143,7 @@ def _contact_table(vehicle: Vehicle) -> dict[str, Any]:
     table = {
         name: getattr(contact, name)
         for name in contact.__dataclass_fields__
-        if name != "law_parameters"
+        if name != "law_parameters" and getattr(contact, name) is not None
     }
     return {**table, **({"law_parameters": law} if law else {})}
 
