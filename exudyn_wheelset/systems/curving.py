@@ -23,6 +23,7 @@ from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.track_kernel import frame_beside, relative_pose
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.systems.fitting import check_gauge
 from exudyn_wheelset.systems.system import newton_equilibrium
 
 if TYPE_CHECKING:
@@ -240,8 +241,10 @@ def check_run(
     """Raise AnalysisError where an irregularity does not go with a run.
 
     start [m], duration [s]; step [s] of the solver. It must reach as far as the first wheelset
-    gets, and a step must not go past a whole interval of its points.
+    gets, a step must not go past a whole interval of its points, and the flanges must fit in.
     """
+    wheelsets = list(wheelsets)
+    ends = sorted((start, start + speed * duration))
     for items in wheelsets:
         irregularity = items.contact.track_frame.irregularity
         if irregularity is None:
@@ -254,6 +257,12 @@ def check_run(
                 f"{items.name} runs to {reached:g} m: make it longer, or the run shorter than "
                 f"{(irregularity.end - start - items.reference[0]) / abs(speed):.4g} s"
             )
+        if speed < 0.0 and ends[0] + items.reference[0] < irregularity.distance[0] - 1e-6:
+            raise AnalysisError(
+                f"the irregularity {irregularity.name!r} begins at {irregularity.distance[0]:g} m, "
+                f"{items.name} runs back to {ends[0] + items.reference[0]:g} m: begin it earlier, "
+                "or start farther on"
+            )
         if abs(speed) * step > irregularity.spacing * (1.0 + 1e-9):
             raise AnalysisError(
                 f"at {speed:g} m/s a step of {step:g} s goes {abs(speed) * step:.4g} m, past whole "
@@ -261,3 +270,4 @@ def check_run(
                 f"{irregularity.spacing:.4g} m apart: give step="
                 f"{irregularity.spacing / abs(speed):.3g}, a lower speed, or points farther apart"
             )
+    check_gauge(wheelsets, *ends)

@@ -38,6 +38,7 @@ from exudyn_wheelset.systems.exudyn_layout import Layout, lay_out
 from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.exudyn_wheelsets import rolling_radii
+from exudyn_wheelset.systems.fitting import check_curves
 from exudyn_wheelset.systems.starts import shifted_state
 from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError, as_system
 from exudyn_wheelset.systems.vehicle_system import VehicleSystem
@@ -112,6 +113,7 @@ def simulate(
     station, initial = _station(wheelsets, start, initial)
     if isinstance(system, ExudynSystem):
         check_run(wheelsets, speed, station, duration, system.step)
+        check_curves(system.name, wheelsets)
         stand_at(wheelsets, station, False)
     state = _start_state(system, speed, initial)
     if isinstance(system, ExudynSystem) and not isinstance(initial, np.ndarray):

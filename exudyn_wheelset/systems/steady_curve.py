@@ -26,6 +26,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.systems.fitting import check_curves
 from exudyn_wheelset.systems.simulation import motion_of
 from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.systems.vehicle_system import VehicleSystem, vehicle_system
@@ -132,6 +133,7 @@ def steady_curve(
     layout = Layout([Curve(radius, 1.0, cant, widening)], grades, base)
     track = replace(vehicle.track, layout=layout, irregularity=None)
     system = vehicle_system(vehicle.on(track))
+    check_curves(system.name, system.wheelsets)
     state = system.equilibrium(speed)
     record = describe(system, "steady curve", {"radius": radius, "cant": cant, "speed": speed})
     raw = tuple(row[None, :] for row in system.layout.expand(state))
