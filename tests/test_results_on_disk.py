@@ -12,6 +12,7 @@ import pytest
 
 from exudyn_wheelset.errors import AnalysisError, FileError
 from exudyn_wheelset.front.output import write_json
+from exudyn_wheelset.results import netcdf
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.files import write_atomically, write_columns
@@ -91,20 +92,47 @@ def test_xarray_has_units():
     assert data.attrs["ending"].startswith("derailment")
 
 
+def test_a_motion_comes_back_from_netcdf_to_the_last_bit(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    pytest.importorskip("h5py")
+    given = motion()
+    path = given.write_netcdf(tmp_path / "folder" / "hunting.nc")
+    same(Motion.read_netcdf(path), given)
+    with xarray.open_dataset(path, engine="h5netcdf") as data:
+        assert data["Q"].dims == ("t", "wheelset", "side")
+        assert data["Q"].attrs["units"] == "N"
+        chosen = data["Q"].sel(wheelset="axle", side="right")
+        assert np.array_equal(chosen, given.columns["axle right: Q [N]"])
+        assert data["distance"].to_numpy() == pytest.approx(40.0 * given.time)
+        assert json.loads(data.attrs["record"])["system"] == "test"
+    bare = Motion(given.time, given.columns, given.outcome, 40.0, start=3.0)
+    again = Motion.read_netcdf(bare.write_netcdf(tmp_path / "bare.nc"))
+    same(again, bare)
+    assert again.start == 3.0
+    (tmp_path / "text.nc").write_text("no file of this kind")
+    with pytest.raises(AnalysisError, match="not a result of this package"):
+        Motion.read_netcdf(tmp_path / "text.nc")
+    with pytest.raises(AnalysisError, match="no such file"):
+        Motion.read_netcdf(tmp_path / "nowhere.nc")
+
+
 def test_without_the_library_the_error_says_what_to_do(monkeypatch):
     import builtins
 
     real = builtins.__import__
 
     def missing(name, *arguments):
-        if name in ("pandas", "xarray"):
+        if name in ("pandas", "xarray", "h5netcdf", "h5py"):
             raise ImportError(name)
         return real(name, *arguments)
 
-    monkeypatch.setattr("importlib.import_module", lambda name: missing(name))
+    monkeypatch.setattr(netcdf, "import_module", missing)
     for method in ("to_pandas", "to_xarray"):
         with pytest.raises(AnalysisError, match="pip install"):
             getattr(motion(), method)()
+    with pytest.raises(AnalysisError, match="pip install"):
+        motion().write_netcdf("anywhere.nc")
 
 
 def test_named_columns_keep_their_names():

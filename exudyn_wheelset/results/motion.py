@@ -22,7 +22,7 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.results import comfort, en14363
+from exudyn_wheelset.results import comfort, en14363, netcdf
 from exudyn_wheelset.results import running_safety as safety
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Outcome
@@ -285,34 +285,23 @@ class Motion:
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame over "t [s]"; raises AnalysisError where pandas is not installed."""
-        pandas = _library("pandas")
+        pandas = netcdf.library("pandas")
         return pandas.DataFrame(
             dict(self.columns), index=pandas.Index(self.time, name="t [s]"), copy=True
         )
 
     def to_xarray(self) -> Any:
-        """An xarray Dataset over t, units as attributes; AnalysisError where it is not installed.
+        """An xarray Dataset over t, wheelset and side (netcdf.py); AnalysisError without xarray."""
+        return netcdf.to_dataset(self)
 
-        Names lose their units and attributes say how the motion ended.
+    def write_netcdf(self, path: str | Path) -> Path:
+        """Write everything as NetCDF 4, whole or not at all; `Motion.read_netcdf` reads it back.
+
+        Needs xarray and h5netcdf (extra `study`); raises AnalysisError where they are missing.
         """
-        xarray = _library("xarray")
-        variables = {}
-        for name, values in self.columns.items():
-            short, _, unit = name.partition(" [")
-            variables[short] = ("t", values, {"units": unit.removesuffix("]")})
-        return xarray.Dataset(
-            variables,
-            coords={"t": ("t", self.time, {"units": "s"})},
-            attrs={"speed": self.speed, "ending": str(self.outcome)},
-        )
+        return netcdf.write_netcdf(self, path, KIND)
 
-
-def _library(name: str) -> Any:
-    from importlib import import_module
-
-    try:
-        return import_module(name)
-    except ImportError as error:
-        raise AnalysisError(
-            f"{name} is not installed: pip install {name}, or use `columns` and `write_csv`"
-        ) from error
+    @classmethod
+    def read_netcdf(cls, path: str | Path) -> Motion:
+        """Read a file of `write_netcdf`; raises AnalysisError if it is no such file."""
+        return netcdf.read_netcdf(cls, path, KIND)
