@@ -82,6 +82,7 @@ _PLACES = {
     "load_profile": "profiles",
     "load_vehicle": "vehicles.files",
     "load_settings": "front.settings",
+    "mean_profile": "profiles",
     "nonlinear_critical_speed": "stability.hunting.nonlinear",
     "paper_parameters": "catalogue.lateral_wheelset",
     "piecewise_geometry": "geometry.piecewise",

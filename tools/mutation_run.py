@@ -68,7 +68,9 @@ GROUPS = {
         compiled=False,
         deselected="exact or fastsim or continuity",
     ),
-    "slopes": Group(("creep/slopes.py",), ("test_law_checks.py",)),
+    "slopes": Group(
+        ("creep/slopes.py",), ("test_creep_slopes.py",), compiled=False, deselected="hundredth"
+    ),
     "fastsim": Group(
         ("creep/fastsim.py",),
         ("test_creep_fastsim_theory.py", "test_creep_curves_contact.py"),
