@@ -5,9 +5,8 @@ import signal
 import exudyn as exu
 import numpy as np
 import pytest
-from exudyn.utilities import (
-    LoadForceVector,
-)
+from exudyn.utilities import LoadForceVector, NodeGenericData
+from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset import (
     AnalysisError,
@@ -160,6 +159,39 @@ def test_a_model_with_a_constraint_runs_as_it_is():
     motion = simulate(mbs, SPEED, 0.05, solver_type="GeneralizedAlpha")
     assert motion.outcome.ending is Ending.FINISHED
     assert len(motion["wheelset: y"]) == len(motion)
+
+
+def test_a_model_with_memory_of_its_own_runs_as_it_is():
+    """Data coordinates (of a friction element of Exudyn's, say) are neither states nor refused."""
+    _container, mbs = model()
+    mbs.AddNode(NodeGenericData(initialCoordinates=[0.0], numberOfDataCoordinates=1))
+    assert simulate(mbs, SPEED, 0.01).outcome.ending is Ending.FINISHED
+    with pytest.raises(AnalysisError, match="data coordinates"):
+        simulate(mbs, SPEED, 0.01, initial=0.0)
+
+
+@pytest.mark.parametrize("initial", [None, 1e-3])
+def test_samples_are_where_they_were_asked_for(initial):
+    motion = simulate(model()[1], SPEED, 0.06, initial=initial, interval=3e-3)
+    assert motion.time == pytest.approx(np.linspace(0.0, 0.06, 21), abs=1e-12)
+    settings = motion.record["settings"]
+    assert settings["interval"] == pytest.approx(3e-3) and settings["speed"] == SPEED
+    assert settings["duration"] == pytest.approx(0.06)
+
+
+def test_drawn_wheels_have_turned_by_their_way_over_the_radius():
+    """The axle's line stays as the states have it; about it the wheels roll off V t/r."""
+    motion = simulate(dtu_truck(), 20.0, 0.5, initial=2e-3)
+    name = "truck leading wheelset"
+    turned = Rotation.from_rotvec(motion.coordinates[:, 3:6])
+    axle, spoke = turned.apply([0.0, 1.0, 0.0]), turned.apply([1.0, 0.0, 0.0])
+    np.testing.assert_allclose(axle[:, 0], -motion[f"{name}: yaw"], atol=1e-6)
+    np.testing.assert_allclose(axle[:, 2], motion[f"{name}: roll"], atol=1e-6)
+    rolled = np.unwrap(np.arctan2(-spoke[:, 2], spoke[:, 0]))
+    # Radii over the treads differ by the conicity times 2 mm: below 1 %.
+    way = 20.0 * motion.time / dtu_truck().wheelset.radius
+    np.testing.assert_allclose(rolled, way, rtol=1e-2, atol=1e-3)
+    assert way[-1] > 3.0 * np.pi
 
 
 def test_equations_without_exudyn():

@@ -2,8 +2,8 @@
 
 A sign, an arithmetic operator, a constant, a comparison turned around, `and` for `or`, sin for cos,
 min for max. Left alone: docstrings, annotations, imports, messages of errors, ranges in which a
-parameter is accepted, and constants up to 1e-3 in size, which are tolerances and steps of
-differences: a quarter more of them changes no result.
+parameter is accepted, `strict` of zip, which only checks, and constants up to 1e-3 in size, which
+are tolerances and steps of differences: a quarter more of them changes no result.
 """
 
 from __future__ import annotations
@@ -121,6 +121,10 @@ class _Places(ast.NodeVisitor):
                 node.func.end_lineno, node.func.end_col_offset - len(name), name, SWAPPED[name]
             )
         self.generic_visit(node)
+
+    def visit_keyword(self, node: ast.keyword) -> None:
+        if node.arg != "strict":
+            self.generic_visit(node)
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> None:
         for part in [*node.args.defaults, *node.args.kw_defaults, *node.body]:

@@ -139,11 +139,11 @@ def s1002_wheelset(
 
 
 def _on_track(made: Any, changes: Changes) -> Any:
-    """A vehicle with its track changed."""
+    """A vehicle with its track and its wheelsets changed."""
     track = made.track
-    names = ("gauge", "gauge_depth", "inclination")
-    changed = {name: getattr(track, name) for name in names} | changes.given(*names)
-    return replace(made, track=Track(changes.rail or track.rail, **changed))
+    changed = {name: getattr(track, name) for name in _TRACK} | changes.given(*_TRACK)
+    wheelset = replace(made.wheelset, **changes.given("tape_half_distance", "radius"))
+    return replace(made, track=Track(changes.rail or track.rail, **changed), wheelset=wheelset)
 
 
 def _paper(spring_set: int) -> Callable[[Changes], Any]:
@@ -165,9 +165,9 @@ def _paper_lateral(spring_set: int) -> Callable[[Changes], Any]:
             "profiled",
             spring_set,
             free_spin=True,
-            parameters=paper_parameters(spring_set, **changes.given("friction")),
+            parameters=paper_parameters(spring_set, **changes.given(*_LATERAL_NUMBERS)),
             wheel=changes.tread(paper.WHEEL),
-            **changes.given("creep", "gauge", "gauge_depth", "rail", "inclination"),
+            **changes.given("creep", "rail", "tape_half_distance", *_TRACK),
         )
 
     return make
@@ -191,9 +191,11 @@ def _truck(changes: Changes) -> Truck:
 
 
 _TRACK = ("gauge", "gauge_depth", "inclination")
-_LATERAL = ("friction", "creep", *_TRACK, "wheel", "rail", "conicity")
-_CONTACT = ("friction", "creep", "damping", "law_parameters")
-_ON_PROFILES = (*_LATERAL, "damping", "law_parameters")
+_LATERAL_NUMBERS = ("friction", "shear_modulus", "poisson", "radius")
+_LATERAL = ("creep", *_LATERAL_NUMBERS, *_TRACK, "wheel", "rail", "conicity", "tape_half_distance")
+_BESIDES = ("damping", "normal", "law_parameters")
+_CONTACT = ("friction", "creep", "shear_modulus", "poisson", *_BESIDES)
+_ON_PROFILES = (*_LATERAL, *_BESIDES)
 _PAPER_SEARCHED = {1: (10.0, 100.0), 2: (40.0, 200.0), 3: (100.0, 320.0)}
 
 CATALOGUE: dict[str, Entry] = {
