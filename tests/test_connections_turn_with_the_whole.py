@@ -11,7 +11,7 @@ from test_vehicle_elements import ELEMENTS, Joined, pose, preload_of
 
 from exudyn_wheelset.systems.constraints import turn_bodies
 
-# Links hang plumb and leaves act upright: their axes are the track's, which do not turn.
+# Links hang plumb and leaves act upright: their axes are those of the track.
 TURNING = [name for name in ELEMENTS if name not in ("links", "leaf spring")]
 
 

@@ -5,12 +5,12 @@ axles and a body beside the middle at random. Each goes through equilibrium, lin
 and a second of motion. The first 300 seeds have been run so (90 s of CPU): none ends with another
 error than the package's or with a number that is none.
 
-- 270 run for the second. Of them 211 have a linear critical speed between 10 and 120 m/s; the others
-  hunt at 10 m/s already, are stable throughout or diverge, and are told so.
+- 270 run for the second. 211 of all have a linear critical speed between 10 and 120 m/s; others hunt
+  at 10 m/s already, are stable throughout or diverge, and are told so.
 - 13 derail: with less than 1 mm of play, the push of 1 mm drives a flange into its rail.
 - 11 do not stand: a body beyond the axles would lift one (ContactError with wheel and newtons).
-- 6 have no steady running: loads beside the middle steer wheels without a flange off their rails (4),
-  a contact that jumps where it would rest (1), no play (1); static_equilibrium warns of them.
+- 6 have no steady running: loads beside the middle steer them off their rails (4), a contact that
+  jumps where it would rest (1), no play (1); static_equilibrium warns of them.
 
 The seeds kept here are those that once failed and some that did not.
 """
