@@ -5,7 +5,7 @@ axles and a body beside the middle at random. Each goes through equilibrium, lin
 and a second of motion. The first 300 seeds have been run so (90 s of CPU): none ends with another
 error than the package's or with a number that is none.
 
-- 270 run for the second. 211 of all have a linear critical speed between 10 and 120 m/s; others hunt
+- 270 run for the second. 211 of all have a linear critical speed from 10 to 120 m/s; others hunt
   at 10 m/s already, are stable throughout or diverge, and are told so.
 - 13 derail: with less than 1 mm of play, the push of 1 mm drives a flange into its rail.
 - 11 do not stand: a body beyond the axles would lift one (ContactError with wheel and newtons).
