@@ -118,11 +118,20 @@ def motion(law: str) -> dict[str, float]:
 
 
 def descent() -> dict[str, float]:
-    """CPU time of a descent of the DTU car through ten speeds and to the end of its hunting."""
+    """CPU time of descents of the DTU car: through twenty speeds, and to the end of its hunting.
+
+    Tolerances of the step and of the brackets: the first does not bracket jumps any closer.
+    """
     system = as_system(catalogue.dtu_car(creep="shen-hedrick-elkins"))
-    begun = time.process_time()
-    found = quasi_static_descent(system, 50.0, 38.0, step=0.5)
-    return {"seconds": time.process_time() - begun, "speeds": len(found.speeds)}
+    result = {}
+    for name, low, tolerance in (("twenty_speeds", 40.5, 0.5), ("both_jumps", 38.0, 0.05)):
+        begun = time.process_time()
+        found = quasi_static_descent(system, 50.0, low, step=0.5, tolerance=tolerance)
+        result[f"{name}_seconds"] = time.process_time() - begun
+        result[f"{name}_kept"] = len(found.speeds)
+        result[f"{name}_simulated"] = found.time
+        result |= {f"{name}_{truck}": speed for truck, speed in found.by_truck.items()}
+    return result
 
 
 def measure(with_descent: bool = False) -> dict[str, Any]:

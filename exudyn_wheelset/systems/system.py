@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import Any
 
@@ -88,6 +89,11 @@ class DynamicSystem(ABC):
         """Number of states n."""
         return len(self.state_names)
 
+    @property
+    def step(self) -> float:
+        """Largest time step of `simulate` [s]; 0 where it chooses its steps itself."""
+        return 0.0
+
     @abstractmethod
     def derivative(self, state: Array, speed: float) -> Array:
         """Rate of change of a state (n,) at a forward speed [m/s]; shape (n,)."""
@@ -151,6 +157,22 @@ class DynamicSystem(ABC):
         follow the speed shifts them: without that a wheelset would begin with gross sliding.
         """
         return state
+
+    def held(self, states: Array, speed: float) -> Array:
+        """The last of the states (m, n) of a motion, its mean speed over them made `speed` [m/s].
+
+        What runs free along the track loses speed to creep as it hunts, a car some 1e-3 m/s in a
+        second. The default, for systems without forward motion, is the last state itself.
+        """
+        return np.array(states[-1], dtype=float)
+
+    @contextmanager
+    def coarser(self, factor: float) -> Iterator[bool]:
+        """Within it the time step of `simulate` is `factor` times as long.
+
+        Gives whether it is: where the system chooses its steps itself nothing changes.
+        """
+        yield False
 
     def simulate(self, state: Array, speed: float, times: Array) -> Array:
         """Motion from `state` (n,) at times[0], sampled at `times` (m,) [s]; shape (m, n).

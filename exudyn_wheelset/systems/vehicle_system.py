@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from itertools import pairwise
 from typing import Any
@@ -14,6 +16,7 @@ from exudyn_wheelset.coupling.running import CHECK_INTERVAL
 from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.systems.compiled_vehicle import CompiledVehicle
+from exudyn_wheelset.systems.constraints import JointedLayout
 from exudyn_wheelset.systems.curving import curve_equilibrium
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
@@ -42,6 +45,7 @@ class VehicleSystem(ExudynSystem):
     vehicle_items: VehicleItems
     compiled: CompiledVehicle | None = None
     compiled_motion = False
+    _coarseness = 1.0
     _stable_step: tuple[float, float] = (-1.0, 0.0)
 
     def compile(self, vehicle: Vehicle, items: VehicleItems) -> None:
@@ -84,6 +88,39 @@ class VehicleSystem(ExudynSystem):
             return super().jacobians(states, speed)
         self._place(speed)
         return self.compiled.jacobians(states)
+
+    @property
+    def step(self) -> float:
+        """Largest time step of `simulate` [s]."""
+        return self._coarseness * super().step
+
+    @contextmanager
+    def coarser(self, factor: float) -> Iterator[bool]:
+        """Within it the time step of `simulate` is `factor` times as long.
+
+        Gives whether it is: Exudyn's solver keeps its own.
+        """
+        kept = self._coarseness
+        self._coarseness = factor * kept if self.compiled_motion else kept
+        try:
+            yield self.compiled_motion
+        finally:
+            self._coarseness = kept
+
+    def held(self, states: Array, speed: float) -> Array:
+        """The last of the states (m, n) of a motion, its mean speed over them made `speed` [m/s].
+
+        All bodies and the spins of the wheelsets are shifted together, so that no creepage changes.
+        """
+        layout = self.layout
+        if isinstance(layout, JointedLayout):
+            return super().held(states, speed)
+        forward = layout.positions + layout.rotations[:, 0] - 3
+        rolling = forward[layout.rotations[:, 2] > 0]
+        gained = float(np.mean(states[:, rolling])) if len(rolling) else 0.0
+        state = self.carry_over(states[-1], speed + gained, speed)
+        state[forward] -= gained
+        return state
 
     def simulate(self, state: Array, speed: float, times: Array) -> Array:
         """Motion from `state` (n,) at times[0], at `times` (m,) [s]; shape (m, n).

@@ -6,7 +6,8 @@ settled (see `settling`). The first speed at which the motion of a truck dies ou
 jump, the fold of the limit cycle; the interval between it and the last speed at which that truck
 hunted is bisected, each time from the last state that hunted. Where others still hunt the descent
 goes on. It is the way a test on a roller rig finds the same number, and independent of collocation
-and continuation.
+and continuation. Spins and speed of a vehicle follow the speed, and what it loses by hunting is
+made up for (`DynamicSystem.carry_over`, `held`).
 
 Only stable motion is seen, and only the one that the first state leads to. Just below the fold a
 motion lingers before it dies out, so the criterion of settling sets what can be resolved.
@@ -18,7 +19,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -26,119 +27,22 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
-from exudyn_wheelset.results.records import describe, read_record, write_record
+from exudyn_wheelset.results.records import describe
 from exudyn_wheelset.stability.hunting.branch import NamedColumns
+from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
-KIND = "quasi-static descent"
 # A fall to less than a third, to less than a tenth of the scale (0.1 mm), is the end of hunting:
 # wheelsets on S1002 have a ripple of 0.05 mm where nothing else lives.
 FALL, RIPPLE = 1.0 / 3.0, 0.1
-
-
-@brief
-@dataclass(frozen=True, eq=False)
-class Descent:
-    """Stable hunting motion over falling speed, down to the jump.
-
-    speeds      (k,) speeds that hunted, in the order they were run [m/s]
-    amplitude   (k, displacements) half of peak to peak [m or rad]; columns also by name
-    trucks      (k, trucks) mean amplitude of the watched displacement of each truck; by name
-    period      (k,) [s]
-    settled     (k,) whether the peaks settled; if not, the run was ended after all its cycles
-    states      (k, n) last state at each speed
-    stops       bracket [m/s] by truck: highest speed at which its hunting had died out, lowest at
-                which it hunted; only trucks that stopped
-    jumped      highest speed at which all hunting died out [m/s]; nan while it has not
-    time        simulated in total [s]
-    outcome     how it ended; `reason` says it in words
-    method      "descent"
-    record      system, parameters, versions, settings
-    """
-
-    speeds: Array
-    amplitude: NamedColumns
-    trucks: NamedColumns
-    period: Array
-    settled: Array
-    states: Array
-    stops: dict[str, tuple[float, float]]
-    jumped: float
-    time: float
-    outcome: Outcome
-    method: str = "descent"
-    record: dict[str, Any] = field(default_factory=dict)
-
-    @property
-    def reason(self) -> str:
-        """Why it ended, in words."""
-        return str(self.outcome)
-
-    @property
-    def bracket(self) -> tuple[float, float]:
-        """Speeds [m/s] below and above the jump: the highest that died, the lowest that hunted."""
-        return self.jumped, float(np.min(self.speeds))
-
-    @property
-    def by_truck(self) -> dict[str, float]:
-        """Speed [m/s] at which each truck stops hunting, the middle of its bracket."""
-        return {name: 0.5 * sum(bracket) for name, bracket in self.stops.items()}
-
-    @property
-    def speed(self) -> float:
-        """Speed of the jump [m/s], the middle of the bracket; nan if it was not reached."""
-        return 0.5 * sum(self.bracket)
-
-    def save(self, path: str | Path) -> Path:
-        """Write to one .npz file, atomically; returns the path."""
-        record = {
-            **self.record,
-            "kind": KIND,
-            "method": self.method,
-            "outcome": self.outcome.record(),
-            "jumped": None if np.isnan(self.jumped) else self.jumped,
-            "time": self.time,
-            "displacements": list(self.amplitude.names),
-            "trucks": list(self.trucks.names),
-            "stops": self.stops,
-        }
-        arrays = {name: np.asarray(getattr(self, name)) for name in _ARRAYS}
-        return write_record(path, arrays, record)
-
-    @classmethod
-    def load(cls, path: str | Path) -> Descent:
-        """The descent of a file; raises AnalysisError if it does not hold one."""
-        arrays, record = read_record(path, KIND)
-        fields: dict[str, Any] = {name: arrays[name] for name in _ARRAYS}
-        fields["amplitude"] = NamedColumns(fields["amplitude"], record["displacements"])
-        fields["trucks"] = NamedColumns(fields["trucks"], record["trucks"])
-        jumped = record["jumped"]
-        return cls(
-            **fields,
-            jumped=np.nan if jumped is None else float(jumped),
-            stops={name: tuple(bracket) for name, bracket in record["stops"].items()},
-            time=record["time"],
-            outcome=Outcome.read(record["outcome"]),
-            record=record,
-        )
-
-    def plot(self, ax: Any, name: str | None = None, factor: float = 1.0, **style: Any) -> Any:
-        """Draw the amplitudes as points and the jump as a thin line; returns the axes."""
-        values = factor * self.amplitude[name or self.amplitude.names[0]]
-        style = {"marker": "v", "linestyle": "none", "markersize": 4, "label": "descent", **style}
-        ax.plot(self.speeds, values, **style)
-        if not np.isnan(self.jumped):
-            ax.axvline(self.speed, color="0.6", linewidth=0.8)
-        return ax
-
-
-_ARRAYS = ("speeds", "amplitude", "trucks", "period", "settled", "states")
+# Steps this many times as long are taken where a block of cycles shows a difference of less than
+# this part of the tolerance of settling.
+COARSER, STEP_SHARE = 2.0, 0.1
 
 
 def quasi_static_descent(
@@ -209,6 +113,7 @@ class _Run:
         tolerance: float,
     ) -> None:
         self.system, self.watched, self.settling = system, watched, settling
+        self.coarseness = 1.0
         self.high, self.low, self.step, self.tolerance = high, low, step, tolerance
         self.settings = {
             **asdict(settling),
@@ -247,6 +152,7 @@ class _Run:
                 "higher speed or with a larger disturbance"
             )
         self._keep(speed, motion, verdict is Ending.SETTLED)
+        self._choose_step(0)
 
     def advance(self) -> None:
         """Run the next speed, of the descent or of a bisection."""
@@ -254,13 +160,26 @@ class _Run:
         above = self.speeds[last]
         speed = above - self.step if np.isnan(self.below) else 0.5 * (above + self.below)
         speed = max(speed, self.low)
-        motion = self._motion(speed, self.states[last], self.periods[last])
-        verdict = motion.decide()
+        state = self.system.carry_over(self.states[last], above, speed)
+        begins = np.isnan(self.below)
+        motion = self._motion(speed, state, self.periods[last], self.trucks[last])
+        # Within a bracket one truck's verdict is all that is asked.
+        needed = frozenset[str]() if begins else self._hunting()
+        with self.system.coarser(self.coarseness):
+            verdict = motion.decide(needed)
         if verdict is Ending.CONTACT_LOST:
             self.time += motion.time
             self.outcome = Outcome(Ending.CONTACT_LOST, f"at {speed:.4f} m/s: {motion.failure}")
             return
-        if verdict is Ending.DIED_OUT or not self._goes_on(motion, last):
+        sizes = motion.truck_amplitudes()
+        for name, floor in motion.floors.items():
+            motion.hunting[name] = motion.hunting[name] and sizes[name] >= floor
+        if begins and not all(motion.hunting[name] for name in self._hunting()):
+            used = self.coarseness
+            self._choose_step(last)
+            if self.coarseness < used:
+                return
+        if verdict is Ending.DIED_OUT or not any(motion.hunting.values()):
             self.time += motion.time
             self.jumped = speed
         else:
@@ -326,18 +245,38 @@ class _Run:
         self.states = list(kept.states)
         self.jumped, self.time = kept.jumped, kept.time
         self._finish()
+        if self.outcome is None:
+            self._choose_step(len(self) - 1)
 
-    def _motion(self, speed: float, state: Array, period: float) -> WatchedMotion:
-        return WatchedMotion(self.system, speed, state, period, self.watched, self.settling)
+    def _motion(
+        self, speed: float, state: Array, period: float, before: Sequence[float] = ()
+    ) -> WatchedMotion:
+        """The motion at a speed; before: amplitude of each truck in the run that it begins from.
 
-    def _goes_on(self, motion: WatchedMotion, last: int) -> bool:
-        """Whether a truck goes on hunting, and has not fallen from a cycle to a ripple."""
-        sizes = motion.truck_amplitudes()
-        for name, before in zip(self.watched, self.trucks[last], strict=True):
-            ripple = RIPPLE * self.system.scales[self.watched[name]]
-            if sizes[name] < min(ripple, FALL * before):
-                motion.hunting[name] = False
-        return any(motion.hunting.values())
+        A truck that falls from a cycle to a ripple does not hunt, nor one that did not before and
+        moves no more than that.
+        """
+        floors = {}
+        for (name, index), size in zip(self.watched.items(), before, strict=False):
+            ripple = RIPPLE * float(self.system.scales[index])
+            floors[name] = min(ripple, FALL * size) if size > 0.0 else ripple
+        return WatchedMotion(self.system, speed, state, period, self.watched, self.settling, floors)
+
+    def _choose_step(self, run: int) -> None:
+        """Take longer time steps if they show the motion of a run the same, else the usual ones."""
+        sizes = []
+        for factor in (1.0, COARSER):
+            with self.system.coarser(factor) as chosen:
+                if not chosen:
+                    return
+                motion = self._motion(self.speeds[run], self.states[run], self.periods[run])
+                self.coarseness = 1.0
+                if motion.advance() is Ending.CONTACT_LOST:
+                    return
+            sizes.append(np.array([means[-1] for means in motion.by_truck.values()]))
+        allowed = STEP_SHARE * self.settling.tolerance * float(np.max(sizes[0]))
+        if float(np.max(np.abs(sizes[1] - sizes[0]))) < allowed:
+            self.coarseness = COARSER
 
     def _keep(self, speed: float, motion: WatchedMotion, settled: bool) -> None:
         self.speeds.append(speed)

@@ -24,7 +24,7 @@ died out when all trucks have. Amplitudes in m or rad, times in s.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -93,6 +93,8 @@ class WatchedMotion:
     by_truck     amplitude of each block [m or rad] by truck
     hunting      whether each truck hunts, once decided
     amplitudes   half of peak to peak of all displacements over the last block (d,)
+    floors       amplitude [m or rad] below which a truck does not hunt, where it stays there for
+                 two blocks; it need not settle then
     """
 
     def __init__(
@@ -103,6 +105,7 @@ class WatchedMotion:
         period: float,
         watched: Mapping[str, int],
         settling: Settling,
+        floors: Mapping[str, float] | None = None,
     ) -> None:
         self.system = system
         self.speed = speed
@@ -110,6 +113,7 @@ class WatchedMotion:
         self.period = period
         self.watched = dict(watched)
         self.settling = settling
+        self.floors = dict(floors or {})
         self.time = 0.0
         self.cycles = 0
         self.by_truck: dict[str, list[float]] = {name: [] for name in watched}
@@ -125,8 +129,7 @@ class WatchedMotion:
     def advance(self) -> Ending:
         """Simulate one block and judge."""
         settling = self.settling
-        span = (settling.block + 1) * self.period
-        times = np.linspace(0.0, span, SAMPLES * (settling.block + 1) + 1)
+        times = self._times((settling.block + 1) * self.period)
         try:
             states = self.system.simulate(self.state, self.speed, times)
         except WheelsetError as error:
@@ -135,8 +138,8 @@ class WatchedMotion:
         if not np.all(np.isfinite(states)):
             self.failure = f"the motion at {self.speed:g} m/s is no longer finite"
             return Ending.CONTACT_LOST
-        self.state = states[-1].copy()
-        self.time += span
+        self.state = self.system.held(states, self.speed)
+        self.time += float(times[-1])
         self.cycles += settling.block
         moved = states[:, list(self.system.displacement_indices)]
         self.amplitudes = 0.5 * (moved.max(axis=0) - moved.min(axis=0))
@@ -154,11 +157,24 @@ class WatchedMotion:
             self.period = following
         return self._judge()
 
-    def decide(self) -> Ending:
-        """Simulate until decided, at most the number of cycles allowed."""
+    def _times(self, span: float) -> Array:
+        """Equal sample times from 0 over a span [s], at whole time steps where they are short."""
+        interval, step = self.period / SAMPLES, self.system.step
+        if 0.0 < step < interval:
+            interval = step * np.floor(interval / step * (1.0 + 1e-9))
+        return interval * np.arange(int(np.ceil(span / interval - 1e-9)) + 1)
+
+    def decide(self, needed: Collection[str] = ()) -> Ending:
+        """Simulate until decided, at most the number of cycles allowed.
+
+        needed: trucks without which the rest is not of interest; it is undecided as soon as one of
+        them does not hunt.
+        """
         while True:
             verdict = self.advance()
             if verdict is not Ending.UNDECIDED:
+                return verdict
+            if not all(self.hunting[name] for name in needed):
                 return verdict
             if self.cycles < self.settling.cycles:
                 continue
@@ -206,8 +222,7 @@ class WatchedMotion:
                 time += probe.time - before
             if verdict is Ending.CONTACT_LOST:
                 return Ending.UNDECIDED
-            self.__dict__.update(probe.__dict__)
-            self.time = time
+            self.__dict__.update(probe.__dict__ | {"floors": self.floors, "time": time})
             return verdict
 
     def truck_amplitudes(self) -> dict[str, float]:
@@ -226,7 +241,8 @@ class WatchedMotion:
             verdicts[name] = _judge(means, rest, self.settling.tolerance)
             # A truck that another one shakes a little does not hunt.
             shaken = means[-1] < min(rest, SHAKEN * largest)
-            self.hunting[name] = verdicts[name] is not Ending.DIED_OUT and not shaken
+            low = len(means) > 1 and max(means[-2:]) < self.floors.get(name, 0.0)
+            self.hunting[name] = verdicts[name] is not Ending.DIED_OUT and not (shaken or low)
         if not any(self.hunting.values()):
             return Ending.DIED_OUT
         if any(
