@@ -26,7 +26,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.stability.hunting.collocation import Collocation, Direction
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import Side, fold_near, prepared
 from exudyn_wheelset.stability.hunting.folds import base_at
 from exudyn_wheelset.stability.hunting.orbit import Orbit

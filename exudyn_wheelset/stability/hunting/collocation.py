@@ -26,140 +26,26 @@ period in s, the speed in m/s.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.stability.hunting.condensed import (
+    Condensed,
+    Direction,
+    Functional,
+    Gradients,
+)
 from exudyn_wheelset.stability.hunting.floquet import Multipliers, floquet_multipliers
 from exudyn_wheelset.stability.hunting.orbit import Basis, Orbit, OrbitError, basis_of, windows_of
+from exudyn_wheelset.stability.hunting.orbit_kernels import at_nodes, condense_intervals, weighed
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
 
 # One-sided difference step in scales, ten nanometres for a wheelset: above what a contact search
 # resolves, below what bends the slope of a smooth f. Defects are exact, so orbits and folds do not
 # move with it.
 FORWARD_STEP = 1e-5
-
-
-@dataclass(frozen=True, eq=False)
-class Functional:
-    """A linear form on (orbit, period, speed), in scaled unknowns: one row of a bordered system.
-
-    orbit (N, m + 1, n), period and speed: the coefficients; value: what it is to become.
-    """
-
-    orbit: Array
-    period: float
-    speed: float
-
-    def __call__(self, orbit: Array, period: float, speed: float) -> float:
-        return float(np.sum(self.orbit * orbit)) + self.period * period + self.speed * speed
-
-
-@dataclass(frozen=True, eq=False)
-class Direction:
-    """A change of (orbit, period, speed): windows (N, m + 1, n) in scales, period and speed
-    relative to the units of the `Collocation`."""
-
-    orbit: Array
-    period: float
-    speed: float
-
-    def vector(self) -> Array:
-        """All components in one vector."""
-        return np.concatenate([self.orbit.ravel(), [self.period, self.speed]])
-
-    @classmethod
-    def from_vector(cls, vector: Array, shape: tuple[int, ...]) -> Direction:
-        """The inverse of `vector`, for windows of a shape (N, m + 1, n)."""
-        return cls(vector[:-2].reshape(shape), float(vector[-2]), float(vector[-1]))
-
-    def __mul__(self, factor: float) -> Direction:
-        return Direction(factor * self.orbit, factor * self.period, factor * self.speed)
-
-
-@dataclass(frozen=True, eq=False)
-class Gradients:
-    """f (k, n), df/dx (k, n, n) and df/dV (k, n), in scales, at phases (k,) of an orbit."""
-
-    phases: Array
-    rates: Array
-    by_state: Array
-    by_speed: Array
-
-    def on_mesh(self, mesh: Array, nodes: Array) -> Gradients:
-        """Interpolated linearly to the nodes of another mesh: good for Newton's steps,
-        not for Floquet multipliers. Beyond the ends the nearest value is taken."""
-        wanted = (mesh[:-1, None] + np.diff(mesh)[:, None] * nodes).ravel()
-        right = np.clip(np.searchsorted(self.phases, wanted), 1, len(self.phases) - 1)
-        gaps = self.phases[right] - self.phases[right - 1]
-        weight = np.clip((wanted - self.phases[right - 1]) / gaps, 0.0, 1.0)
-
-        def moved(values: Array) -> Array:
-            share = weight.reshape(-1, *[1] * (values.ndim - 1))
-            return (1.0 - share) * values[right - 1] + share * values[right]
-
-        return Gradients(wanted, moved(self.rates), moved(self.by_state), moved(self.by_speed))
-
-
-@dataclass(frozen=True, eq=False)
-class Condensed:
-    """Newton's linear equations at an orbit, condensed to q = (x(0), T, V).
-
-    inverse      (N, m n, m n) of the blocks of interior values
-    propagation  (N, m n, n): interior values from the interval's first one
-    points       (N, m + 1, n, n + 2): every value from q
-    closure      (n,) signs that the end carries over to the start: 1, or the orbit's mirror
-    gradients    what they were assembled from
-    """
-
-    inverse: Array
-    propagation: Array
-    points: Array
-    closure: Array
-    gradients: Gradients
-
-    @property
-    def monodromy(self) -> Array:
-        """Map (n, n) of a disturbance, in scales, over one period.
-
-        Over half of it, then mirrored, twice, if the orbit is its own mirror image.
-        """
-        size = self.points.shape[2]
-        matrix = self.closure[:, None] * self.points[-1, -1, :, :size]
-        return matrix if np.all(self.closure > 0.0) else matrix @ matrix
-
-    def solve(self, defects: Array, rows: list[Functional], values: list[float]) -> Direction:
-        """Correction that removes the defects (N, m, n) and gives each row its value.
-
-        Raises OrbitError if the bordered system has no solution.
-        """
-        intervals, points, size, columns = self.points.shape
-        local = -np.matmul(self.inverse, defects.reshape(intervals, -1, 1))[..., 0]
-        offset = np.empty((intervals, points, size))
-        start = np.zeros(size)
-        for index in range(intervals):
-            offset[index, 0] = start
-            inner = self.propagation[index] @ start + local[index]
-            offset[index, 1:] = inner.reshape(points - 1, size)
-            start = offset[index, -1]
-        matrix = np.zeros((columns, columns))
-        right = np.zeros(columns)
-        matrix[:size] = self.points[-1, -1]
-        matrix[:size, :size] -= np.diag(self.closure)
-        right[:size] = -offset[-1, -1]
-        for line, (row, value) in enumerate(zip(rows, values, strict=True), start=size):
-            matrix[line] = np.tensordot(row.orbit, self.points, axes=3)
-            matrix[line, size] += row.period
-            matrix[line, size + 1] += row.speed
-            right[line] = value - np.sum(row.orbit * offset)
-        # Least squares: a coordinate that the equations leave free makes the system singular, and
-        # the least change of it is the right one.
-        try:
-            base = np.linalg.lstsq(matrix, right, rcond=1e-13)[0]
-        except np.linalg.LinAlgError as error:
-            raise OrbitError("Newton's equations of the orbit have no solution") from error
-        return Direction(self.points @ base + offset, float(base[size]), float(base[size + 1]))
 
 
 class Collocation:
@@ -180,6 +66,8 @@ class Collocation:
     ) -> None:
         self.system = system
         self.mirror = mirror
+        # What changes sign in the other half has no mean.
+        self._odd = np.zeros(system.size, dtype=bool) if mirror is None else mirror < 0.0
         self.scales = np.asarray(system.scales, dtype=float)
         self.period_unit = float(period_unit)
         self.speed_unit = float(speed_unit)
@@ -227,16 +115,14 @@ class Collocation:
         """
         degree = direction.orbit.shape[1] - 1
         basis = self.basis(degree)
-        widths = np.diff(mesh)
-        gram = basis.values.T @ (basis.weights[:, None] * basis.values)
-        weighted = np.einsum("i,jk,ikn->ijn", widths, gram, direction.orbit)
-        weights = widths[:, None] * (basis.weights @ basis.values)
-        mean = np.einsum("ij,ijn->n", weights, direction.orbit)
-        if self.mirror is not None:
-            # What changes sign in the other half has no mean.
-            mean[self.mirror < 0.0] = 0.0
-        weighted -= weights[:, :, None] * mean
-        return Functional(weighted, direction.period, direction.speed)
+        weights = weighed(
+            np.ascontiguousarray(direction.orbit),
+            np.diff(mesh),
+            basis.gram,
+            basis.shares,
+            self._odd,
+        )
+        return Functional(weights, direction.period, direction.speed)
 
     def norm(self, mesh: Array, direction: Direction) -> float:
         """Length of a direction in the scalar product `inner`."""
@@ -251,8 +137,8 @@ class Collocation:
     def phase(self, orbit: Orbit) -> Functional:
         """The form <., dx_ref/ds> of the phase condition about the orbit as reference."""
         basis = self.basis(orbit.degree)
-        slopes = np.einsum("kj,ijn->ikn", basis.slopes, self.windows(orbit))
-        row = np.einsum("k,kj,ikn->ijn", basis.weights, basis.values, slopes)
+        slopes = at_nodes(orbit.states / self.scales, basis.slopes)
+        row = np.matmul(basis.values.T * basis.weights, slopes)
         return Functional(row / max(float(np.linalg.norm(row)), 1e-300), 0.0, 0.0)
 
     def defects(self, orbit: Orbit) -> Array:
@@ -262,7 +148,7 @@ class Collocation:
         """
         rates = self._rates(self._node_states(orbit), orbit.speed)
         basis = self.basis(orbit.degree)
-        slopes = np.einsum("kj,ijn->ikn", basis.slopes, self.windows(orbit))
+        slopes = at_nodes(orbit.states / self.scales, basis.slopes)
         widths = np.diff(orbit.mesh)[:, None, None]
         return slopes - widths * orbit.duration * rates.reshape(slopes.shape)
 
@@ -305,34 +191,27 @@ class Collocation:
         """
         basis = self.basis(orbit.degree)
         intervals, degree, size = len(orbit.mesh) - 1, orbit.degree, len(self.scales)
-        widths = np.repeat(np.diff(orbit.mesh), degree)
-        jacobians = gradients.by_state * (orbit.duration * widths)[:, None, None]
-        jacobians = jacobians.reshape(intervals, degree, size, size)
-        full = -np.einsum("kj,ikab->ikajb", basis.values, jacobians)
-        for component in range(size):
-            full[:, :, component, :, component] += basis.slopes
-        full = full.reshape(intervals, degree * size, (degree + 1) * size)
-        share = orbit.duration / orbit.period
-        columns = widths[:, None] * gradients.rates * (share * self.period_unit)
-        by_period = -columns.reshape(intervals, -1, 1)
-        columns = widths[:, None] * gradients.by_speed * (orbit.duration * self.speed_unit)
-        by_speed = -columns.reshape(intervals, -1, 1)
-        try:
-            inverse = np.linalg.inv(full[:, :, size:])
-        except np.linalg.LinAlgError as error:
-            raise OrbitError("an interval of the orbit is too long for its equations") from error
-        influence = -inverse @ np.concatenate([full[:, :, :size], by_period, by_speed], axis=2)
-
+        share = orbit.duration / orbit.period * self.period_unit
+        inverse = np.empty((intervals, degree * size, degree * size))
+        propagation = np.empty((intervals, degree * size, size))
         points = np.empty((intervals, degree + 1, size, size + 2))
-        start = np.eye(size, size + 2)
-        for index in range(intervals):
-            points[index, 0] = start
-            inner = influence[index, :, :size] @ start
-            inner[:, size:] += influence[index, :, size:]
-            points[index, 1:] = inner.reshape(degree, size, size + 2)
-            start = points[index, -1]
-        closure = np.ones(size) if orbit.mirror is None else orbit.mirror
-        return Condensed(inverse, influence[:, :, :size], points, closure, gradients)
+        try:
+            condense_intervals(
+                np.ascontiguousarray(gradients.by_state),
+                gradients.rates * share,
+                gradients.by_speed * (orbit.duration * self.speed_unit),
+                np.diff(orbit.mesh),
+                float(orbit.duration),
+                basis.values,
+                basis.slopes,
+                inverse,
+                propagation,
+                points,
+            )
+        except (np.linalg.LinAlgError, ValueError) as error:
+            raise OrbitError("an interval of the orbit is too long for its equations") from error
+        closure = np.ones(size) if orbit.mirror is None else np.asarray(orbit.mirror)
+        return Condensed(inverse, propagation, points, closure, gradients)
 
     def multipliers(self, orbit: Orbit, condensed: Condensed) -> Multipliers:
         """Floquet multipliers of the orbit without the trivial one (see `floquet`)."""
@@ -361,9 +240,10 @@ class Collocation:
         return result
 
     def _node_states(self, orbit: Orbit) -> Array:
-        windows = windows_of(orbit.states, orbit.degree)
-        values = np.einsum("kj,ijn->ikn", self.basis(orbit.degree).values, windows)
-        return values.reshape(-1, windows.shape[2])
+        values: Array = at_nodes(
+            np.ascontiguousarray(orbit.states), self.basis(orbit.degree).values
+        )
+        return values.reshape(-1, values.shape[2])
 
     def _rates(self, states: Array, speed: float) -> Array:
         """f in scales (k, n); raises OrbitError where the model has no value."""

@@ -24,12 +24,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from exudyn_wheelset.results.endings import Ending, Outcome
-from exudyn_wheelset.stability.hunting.collocation import (
-    Collocation,
-    Condensed,
-    Direction,
-    Functional,
-)
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.floquet import Multipliers

@@ -19,12 +19,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from exudyn_wheelset.stability.hunting.collocation import (
-    FORWARD_STEP,
-    Collocation,
-    Direction,
-    Gradients,
-)
+from exudyn_wheelset.stability.hunting.collocation import FORWARD_STEP, Collocation
+from exudyn_wheelset.stability.hunting.condensed import Direction, Gradients
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.systems.system import Array
 

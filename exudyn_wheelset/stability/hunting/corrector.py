@@ -13,12 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exudyn_wheelset.stability.hunting.collocation import (
-    Collocation,
-    Condensed,
-    Direction,
-    Functional,
-)
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
 from exudyn_wheelset.systems.system import Array
 
@@ -75,7 +71,7 @@ def solve_orbit(
 
     def correction(orbit: Orbit, defects: Array) -> tuple[Direction, float]:
         moved = equations.difference(orbit, guess)
-        apart = equations.difference(orbit, reference)
+        apart = moved if reference is guess else equations.difference(orbit, reference)
         along = row(moved.orbit, moved.period, moved.speed)
         values = [-phase(apart.orbit, 0.0, 0.0), target - along]
         assert condensed is not None

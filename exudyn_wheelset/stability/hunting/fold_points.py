@@ -16,7 +16,8 @@ from typing import Literal
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.stability.hunting.collocation import Collocation, Condensed, Direction
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction
 from exudyn_wheelset.stability.hunting.corners import corners_of, mesh_on, on_mesh, rotated
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit
 from exudyn_wheelset.stability.hunting.folds import base_at, parts

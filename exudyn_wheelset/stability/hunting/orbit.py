@@ -19,6 +19,7 @@ import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.stability.hunting.orbit_kernels import at_nodes, half_ranges
 from exudyn_wheelset.systems.system import Array
 
 DEGREE = 4
@@ -35,7 +36,10 @@ class OrbitError(AnalysisError):
 
 @dataclass(frozen=True)
 class Basis:
-    """Lagrange basis on m + 1 equidistant points of [0, 1], taken at m Gauss or Radau nodes."""
+    """Lagrange basis on m + 1 equidistant points of [0, 1], taken at m Gauss or Radau nodes.
+
+    coefficients of the powers; gram, shares: integrals of products and of the polynomials.
+    """
 
     points: Array
     nodes: Array
@@ -43,6 +47,9 @@ class Basis:
     values: Array
     slopes: Array
     barycentric: Array
+    coefficients: Array
+    gram: Array
+    shares: Array
 
 
 @lru_cache(maxsize=16)
@@ -61,7 +68,8 @@ def basis_of(degree: int, stiff: bool = False) -> Basis:
     values = nodes[:, None] ** powers @ vandermonde
     slopes = (powers * nodes[:, None] ** np.maximum(powers - 1, 0)) @ vandermonde
     signs = np.array([(-1.0) ** j * comb(degree, j) for j in range(degree + 1)])
-    return Basis(points, nodes, weights, values, slopes, signs)
+    gram = values.T @ (weights[:, None] * values)
+    return Basis(points, nodes, weights, values, slopes, signs, vandermonde, gram, weights @ values)
 
 
 @brief
@@ -105,14 +113,16 @@ class Orbit:
 
     def half_peak_to_peak(self) -> Array:
         """Amplitude (n,): half of the distance from the least to the largest value."""
-        per_interval = 4 * self.degree
-        local = np.arange(per_interval) / per_interval
+        local = np.arange(4 * self.degree) / (4 * self.degree)
         phases = (self.mesh[:-1, None] + np.diff(self.mesh)[:, None] * local).ravel()
-        values = self._inside(phases)
+        weights = local[:, None] ** np.arange(self.degree + 1) @ basis_of(self.degree).coefficients
+        values: Array = at_nodes(np.ascontiguousarray(self.states), weights)
+        values = values.reshape(-1, values.shape[2])
         if self.mirror is not None:
             phases = np.concatenate([0.5 * phases, 0.5 + 0.5 * phases])
             values = np.concatenate([values, self.mirror * values])
-        return 0.5 * (_peak(phases, values) + _peak(phases, -values))
+        ranges: Array = half_ranges(phases, values)
+        return ranges
 
     def on_mesh(self, mesh: Array) -> Orbit:
         """The same motion on other intervals of the stored part."""
@@ -145,9 +155,7 @@ class Orbit:
         interval = np.searchsorted(self.mesh, fractions, side="right") - 1
         interval = np.clip(interval, 0, len(self.mesh) - 2)
         local = (fractions - self.mesh[interval]) / np.diff(self.mesh)[interval]
-        basis = basis_of(self.degree)
-        coefficients = np.linalg.inv(np.vander(basis.points, increasing=True))
-        weights = local[:, None] ** np.arange(self.degree + 1) @ coefficients
+        weights = local[:, None] ** np.arange(self.degree + 1) @ basis_of(self.degree).coefficients
         return np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
 
 
@@ -204,20 +212,3 @@ def windows_of(states: Array, degree: int) -> Array:
     """States (N, m + 1, n) of each interval from the chain (N m + 1, n)."""
     first = np.arange(0, len(states) - 1, degree)
     return states[first[:, None] + np.arange(degree + 1)]
-
-
-def _peak(phases: Array, values: Array) -> Array:
-    """Largest value (n,) of each column, by the parabola through the three highest samples."""
-    count, size = values.shape
-    index = values.argmax(axis=0)
-    column = np.arange(size)
-    middle = values[index, column]
-    below, above = values[index - 1, column], values[(index + 1) % count, column]
-    left = np.mod(phases[index] - phases[index - 1], 1.0)
-    right = np.mod(phases[(index + 1) % count] - phases[index], 1.0)
-    slope_left, slope_right = (middle - below) / left, (above - middle) / right
-    curvature = 2.0 * (slope_right - slope_left) / (left + right)
-    slope = (slope_left * right + slope_right * left) / (left + right)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        rise = np.where(curvature < 0.0, -0.5 * slope**2 / curvature, 0.0)
-    return middle + rise

@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from exudyn_wheelset.stability.hunting.collocation import Direction
+from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import (
     Slope,
     distance_between,
