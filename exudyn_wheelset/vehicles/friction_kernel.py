@@ -24,7 +24,8 @@ compression:
     HUNG         as PRESSED on links of the lengths L_x, L_y, whose ends rise by x^2/(2 L):
                  c = c0 - d_z + x^2/(2 L_x) + y^2/(2 L_y); N x/L_x, N y/L_y bring it back
     DISC         a flat disc of radius R on a bed that only pushes: `disc`
-    WEDGE        S = k c of a spring (or S given) presses a wedge on a column: `column_force`
+    WEDGE        S = k c of a spring (or S given) presses a wedge on a column: `column_force`; its
+                 face, where it has a stiffness, is squeezed and tilted: `column_face`
 
 Every pressure but the wedge's on its column is the derivative of a potential.
 """
@@ -59,8 +60,11 @@ CONSTANT, PRESSED, HUNG, DISC, WEDGE = 0, 1, 2, 3, 4
     P_DAMPING_TIME,
     P_COUPLED,
     P_COUNT,
-) = range(18)
-P_COMPONENTS = 18
+    P_BED,
+    P_SIDE,
+    P_RELAXED,
+) = range(21)
+P_COMPONENTS = 21
 # Of a component: sliding velocity as a row over (d', w1 - w0), friction, presliding displacement.
 C_FRICTION, C_PRESLIDING = 6, 7
 COMPONENT = 8
@@ -133,6 +137,53 @@ def column_force(spring_force, hold, tangent, friction, slope_friction):
 
 
 @compiled
+def column_force_slope(spring_force, hold, tangent, friction, slope_friction):
+    """Derivative [N] of `column_force` by the hold."""
+    friction = min(friction, STEEPEST)
+    steep = min(slope_friction, STEEPEST)
+    above = 1.0 - steep * hold * tangent
+    below = tangent + steep * hold - friction * hold * above
+    if above <= 0.0 or below <= 0.0 or abs(hold) >= 1.0:
+        return 0.0
+    by_hold = steep - friction * above + friction * hold * steep * tangent
+    return spring_force * (-steep * tangent * below - above * by_hold) / (below * below)
+
+
+@compiled
+def column_face(normal, grown, block, at, strain, speeds, g, drag):
+    """Normal force [N] of a wedge's face on its column, energy [J] and power [W]; fills g and drag.
+
+    normal: of `column_force`, growing at the rate `grown` [N/s]. The face is a disc of radius R on
+    a bed of stiffness k between wedge and column, compressed by N0/k by the wedge's own force N0,
+    by the way s x on which the bolster nears the column (s = 1 ahead of it, -1 behind it), and by
+    tilting: its turning about z (warp of the truck) and about y (pitch). `disc` gives N and the
+    moment, up to N R. What a like wedge on the other side holds when relaxed is taken off along x.
+    Stored is U - N0^2/(2 k) - s x N0(relaxed); the change (N - N0) N0'/k of it is none of the
+    forces': the wedge's spring makes it.
+    """
+    bed, side, radius = block[at + P_BED], block[at + P_SIDE], block[at + P_RADIUS]
+    ty, tz = strain[4], strain[5]
+    tilt = math.sqrt(ty * ty + tz * tz)
+    own = normal / bed
+    total, moment, stored = disc(own + side * strain[0], tilt, radius, bed)
+    relaxed = block[at + P_RELAXED]
+    g[0] = side * (total - relaxed)
+    if tilt > 0.0:
+        g[4] = moment * ty / tilt
+        g[5] = moment * tz / tilt
+    energy = stored - 0.5 * normal * own - side * strain[0] * relaxed
+    power = -(total - normal) * grown / bed
+    if total > 0.0:
+        resisting = bed * block[at + P_DAMPING_TIME]
+        turning = 0.25 * radius * radius * resisting
+        drag[0] = resisting * speeds[0]
+        drag[4] = turning * speeds[4]
+        drag[5] = turning * speeds[5]
+        power += drag[0] * speeds[0] + drag[4] * speeds[4] + drag[5] * speeds[5]
+    return total, energy, power
+
+
+@compiled
 def friction_law(block, at, strain, speeds, states, first, rates, own, g, drag):
     """Potential forces g (6) and resisting forces drag (6), rates of the holds; energy and power.
 
@@ -177,11 +228,12 @@ def friction_law(block, at, strain, speeds, states, first, rates, own, g, drag):
     elif kind != CONSTANT and stiffness > 0.0:
         normal, energy = pressed(c, stiffness, block[at + P_ONSET])
         g[2] = -normal
+    spring_force = normal
+    hold, tangent, slope = 0.0, block[at + P_TANGENT], block[at + P_SLOPE]
     if kind == WEDGE:
         # The second component is the vertical one; upward motion of the upper body unloads.
         hold = min(1.0, max(-1.0, -states[first + 1]))
-        tangent, slope = block[at + P_TANGENT], block[at + P_SLOPE]
-        normal = column_force(normal, hold, tangent, friction, slope)
+        normal = column_force(spring_force, hold, tangent, friction, slope)
     total = 0.0
     for i in range(count):
         place = at + P_COMPONENTS + COMPONENT * i
@@ -194,6 +246,15 @@ def friction_law(block, at, strain, speeds, states, first, rates, own, g, drag):
     coupled = block[at + P_COUPLED] > 0.0
     time = block[at + P_DAMPING_TIME]
     power = 0.0
+    if kind == WEDGE and block[at + P_BED] > 0.0:
+        down = -rates[own + 1]
+        presliding = block[at + P_COMPONENTS + COMPONENT + C_PRESLIDING]
+        grown = column_force_slope(spring_force, hold, tangent, friction, slope)
+        grown *= (down - (total if coupled else abs(down)) * hold) / presliding
+        if stiffness > 0.0 and spring_force > 0.0:
+            grown -= normal / spring_force * stiffness * speeds[2]
+        normal, stored, power = column_face(normal, grown, block, at, strain, speeds, g, drag)
+        energy += stored
     for i in range(count):
         place = at + P_COMPONENTS + COMPONENT * i
         u = rates[own + i]

@@ -50,8 +50,8 @@ class CoilNest(Element):
         return (
             coils,
             *(
-                replace(law, shift=(ahead, 0.0, 0.0))
-                for ahead in (0.5 * self.spacing, -0.5 * self.spacing)
-                for law in self.wedge.laws()
+                replace(law, shift=(0.5 * self.spacing * side, 0.0, 0.0))
+                for side in (1.0, -1.0)
+                for law in replace(self.wedge, ahead=side > 0.0).laws()
             ),
         )

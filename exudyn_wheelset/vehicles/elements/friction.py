@@ -50,7 +50,8 @@ class Friction:
     stiffness [N/m]: of what presses; force [N]: constant pressure, or of the wedge's spring in the
     drawing; load [N]: known vertical force on the upper body in the drawing, None where the balance
     of the bodies says it; gap, onset [m]; radius [m] of a disc, play [m] and stop [N/m] of its rim;
-    lengths [m] of links; tangent: of the wedge's angle, slope_friction: of its inclined face.
+    lengths [m] of links; tangent: of the wedge's angle, slope_friction: of its inclined face; bed
+    [N/m]: of the wedge's face on its column, 0 for none, side: 1 for a column ahead, -1 behind.
     """
 
     kind: int
@@ -67,6 +68,8 @@ class Friction:
     lengths: tuple[float, float] = (1.0, 1.0)
     tangent: float = 1.0
     slope_friction: float = 0.0
+    bed: float = 0.0
+    side: float = 1.0
     damping_time: float = DAMPING_TIME
 
     @property
@@ -85,6 +88,9 @@ class Friction:
         matrix[2, 2] = self.stiffness
         if self.kind == places.DISC:
             matrix[3, 3] = matrix[4, 4] = 0.25 * self.stiffness * self.radius**2
+        matrix[0, 0] = self.bed
+        if self.kind == places.WEDGE:
+            matrix[4, 4] = matrix[5, 5] = 0.25 * self.bed * self.radius**2
         return matrix
 
     def pool(self, preload: np.ndarray) -> np.ndarray:
@@ -107,6 +113,9 @@ class Friction:
         data[places.P_DAMPING_TIME] = self.damping_time
         data[places.P_COUPLED] = float(self.coupled)
         data[places.P_COUNT] = len(self.slidings)
+        data[places.P_BED] = self.bed
+        data[places.P_SIDE] = self.side
+        data[places.P_RELAXED] = self.force / self.tangent
         pressing = self.force or max(preload[2], 0.0)
         if self.kind != places.CONSTANT and self.stiffness > 0.0:
             load = preload[2]

@@ -12,6 +12,20 @@ and S/tan(a) relaxed; in between the friction that is at work counts. Spring of 
 ("variable damping"): S = tan(a) column_force - spring d_z carries the bolster, on which the wedge
 acts vertically with S - mu N h. Spring inside the bolster ("constant damping", spring = 0): S is
 constant, and only mu N h acts on the bolster. The potential of the spring is S^2/(2 spring).
+
+Along the track a wedge is squeezed between bolster and column. Nearing each other they would press
+it out downward, against friction on both faces, at
+
+    N = S/(tan(a - phi) - mu),
+
+so never while a <= phi + atan(mu), the sum of both angles of friction: the usual wedge locks (32
+degrees with friction 0.4: 43.6) and holds bolster and side frame as stiffly as its faces are. Given
+that stiffness, `along`, the column force is N plus what squeezes it, and the face, a disc of
+`radius`, resists turning in the column (warp of the truck, pitch of the frame): with the stiffness
+along radius^2/4 until an edge lifts at the moment N radius/4, then on less of its area, N growing
+as the edges bind, and never with more than N radius (friction_kernel.column_face). It is the toe
+moment that published wedge models have (two papers in Proc. ASME IMECE 2004, volume 47195, pages
+67 and 77). Wedges come in pairs, one ahead and one behind the bolster.
 """
 
 from __future__ import annotations
@@ -44,7 +58,10 @@ class FrictionWedge(Element):
     column_force [N]: normal force on the column in the drawing, friction relaxed; spring [N/m]: of
     the spring below the wedge, 0 for a column force that stays; slope_friction [-]: of the inclined
     face, that of the column if left out; presliding [m]: sliding over which the hold yields, so its
-    stiffness is friction column_force/presliding; damping_time [s]: of the hold.
+    stiffness is friction column_force/presliding; damping_time [s]: of the hold, and of the face
+    along the track; along [N/m]: stiffness of the face between bolster and column, 0 for a wedge
+    that holds nothing along the track; radius [m]: of the face, half its width, 0 for one that
+    turns freely; ahead: whether the column is ahead of the bolster (else behind).
     """
 
     angle: float
@@ -54,6 +71,9 @@ class FrictionWedge(Element):
     slope_friction: float | None = None
     presliding: float = PRESLIDING
     damping_time: float = DAMPING_TIME
+    along: float = 0.0
+    radius: float = 0.0
+    ahead: bool = True
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -84,6 +104,19 @@ class FrictionWedge(Element):
         put(self, "damping_time", time)
         if self.spring > 0.0:
             positive(f"{name}: column_force", self.column_force, "N")
+        put(self, "along", checked_stiffness(f"{name}: along", self.along))
+        put(
+            self,
+            "radius",
+            number(f"{name}: radius", self.radius, "m", 0.0, 1.0, "metres are asked"),
+        )
+        if not isinstance(self.ahead, bool):
+            raise WheelsetError(f"{name}: ahead = {self.ahead!r}: give True or False")
+        if self.radius > 0.0 and self.along == 0.0:
+            raise WheelsetError(
+                f"{name}: radius = {self.radius:g} m and along = 0: a face without stiffness does "
+                "not resist turning: give along, or leave the radius out"
+            )
 
     @property
     def _tangent(self) -> float:
@@ -118,6 +151,9 @@ class FrictionWedge(Element):
             force=self.spring_force,
             load=self.spring_force if self.spring > 0.0 else None,
             tangent=self._tangent,
+            bed=self.along,
+            side=1.0 if self.ahead else -1.0,
+            radius=self.radius,
             slope_friction=self.friction if self.slope_friction is None else self.slope_friction,
             damping_time=self.damping_time,
         )
