@@ -8,6 +8,7 @@ leave 1 % of what a law has of cubes of a saturation.
 """
 
 import math
+from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
@@ -87,3 +88,9 @@ def test_slope_of_spin_and_creepage_together_is_of_one_axis():
     spin = 0.5 * UNIT[1] / math.sqrt(A * B)
     found = creep_slopes([patch("linear", 2.0 * UNIT[0], -UNIT[1], spin)])
     np.testing.assert_allclose(found, [LINEAR], rtol=1e-9)
+
+
+def test_a_patch_is_not_changed_behind_its_back():
+    one = patch("linear")
+    with pytest.raises(FrozenInstanceError):
+        one.spin = 1.0

@@ -182,7 +182,7 @@ def profiled_choices() -> str:
         ("axle load 60 kN", {"axle_load": 60e3}, {}),
         ("axle load 100 kN", {"axle_load": 100e3}, {}),
         ("axle load 190 kN", {"axle_load": 190e3}, {}),
-        ("yaw inertia 600 kg m^2", {"yaw_inertia": 600.0}, {}),
+        ("yaw inertia 640 kg m^2", {"yaw_inertia": 640.0}, {}),
         ("flange angle 68 degrees", {}, {"wheel": shapes.aar_1_20(flange_angle=np.radians(68.0))}),
         ("throat radius 9/16 in", {}, {"wheel": shapes.aar_1_20(throat_radius=9 / 16 * inch)}),
         ("throat radius 13/16 in", {}, {"wheel": shapes.aar_1_20(throat_radius=13 / 16 * inch)}),
@@ -215,7 +215,7 @@ def knife_edge_choices() -> str:
         ("friction 0.5", {"friction": 0.5}, {}),
         ("rail head radius 0.08 m", {"rail_head_radius": 0.08}, {}),
         ("rail head radius 1 m", {"rail_head_radius": 1.0}, {}),
-        ("yaw inertia 600 kg m^2", {"yaw_inertia": 600.0}, {}),
+        ("yaw inertia 640 kg m^2", {"yaw_inertia": 640.0}, {}),
         ("no gyroscopic terms", {}, {"gyroscopic": False}),
     ]
     rows = []
