@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from exudyn_wheelset.creep.law import CreepLaw
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 
 LEAST = 1e-60
 LARGEST_PATCH = 1e9
@@ -33,7 +34,11 @@ def check_names(description: CreepLaw, parameters: dict[str, Any]) -> None:
     for name in parameters:
         if name not in known:
             raise WheelsetError(
-                unknown(f"parameter of creep law {description.name!r}", name, known)
+                unknown(
+                    f"parameter of creep law {description.name!r}",
+                    name,
+                    [*known, *description.shorthands],
+                )
             )
 
 
@@ -76,6 +81,11 @@ def check_together(description: CreepLaw, values: NDArray) -> None:
             )
 
 
+# Beyond these a patch or a material is none of wheel and rail, only of scaled numbers.
+USUAL_PATCH = 0.1
+USUAL_SHEAR_MODULUS = 1e6
+
+
 def check_patch(values: dict[str, NDArray]) -> None:
     """Raise WheelsetError for a patch or a material that cannot be.
 
@@ -98,3 +108,18 @@ def check_patch(values: dict[str, NDArray]) -> None:
             raise WheelsetError(
                 f"{name} = {values[name][wrong].flat[0]:g} [{unit}]; it must be {ask}"
             )
+    for name in ("a", "b"):
+        if np.any(values[name] > USUAL_PATCH):
+            warnings.warn(
+                f"{name} = {values[name].max():g} m is no patch of wheel and rail (usual: 1e-3 to "
+                f"2e-2 m, warned of from {USUAL_PATCH:g} m): is it given in m?",
+                WheelsetWarning,
+                stacklevel=3,
+            )
+    if np.any(values["shear_modulus"] < USUAL_SHEAR_MODULUS):
+        warnings.warn(
+            f"shear_modulus = {values['shear_modulus'].min():g} Pa is that of no solid (steel: "
+            f"82e9 Pa, warned of below {USUAL_SHEAR_MODULUS:g} Pa): is it given in Pa?",
+            WheelsetWarning,
+            stacklevel=3,
+        )

@@ -207,7 +207,14 @@ def creep_force(
         checked(description, p.name, np.asarray(parameters.get(p.name, p.default)))
         for p in description.parameters
     ]
-    broadcast = np.broadcast_arrays(*arrays, *own)
+    try:
+        broadcast = np.broadcast_arrays(*arrays, *own)
+    except ValueError:
+        shapes = {n: a.shape for n, a in zip(given, arrays, strict=True) if a.shape != ()}
+        raise WheelsetError(
+            f"arguments of the shapes {shapes} do not go together: give numbers, or arrays of one "
+            "shape"
+        ) from None
     shape = broadcast[0].shape
     table = np.stack([np.ravel(column) for column in broadcast], axis=-1)
     states = np.ascontiguousarray(table[:, : len(arrays)])

@@ -36,6 +36,8 @@ def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.Simu
     settings = exu.SimulationSettings()
     if source is None:
         return settings
+    if not isinstance(source, str | PathLike | Mapping):
+        raise SettingsError(f"{source!r}: give the file of the settings, or a mapping of them")
     if isinstance(source, Mapping):
         entries, origin = source, "settings"
     else:

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -89,7 +90,7 @@ def equivalent_conicity(
     _check_length("contact_spacing", contact_spacing)
     _check_length("radius", radius)
     curve = _RadiusDifference(y, rolling_radius_difference)
-    wanted = np.asarray(amplitudes, dtype=float)
+    wanted = _numbers("amplitudes", amplitudes)
     result = np.empty(wanted.size)
     for k, amplitude in enumerate(wanted.ravel()):
         if method == "integration":
@@ -118,10 +119,11 @@ def kinematic_oscillation(
     _check_length("contact_spacing", contact_spacing)
     _check_length("radius", radius)
     curve = _RadiusDifference(y, rolling_radius_difference)
-    lowest, highest = curve.turning_points(float(amplitude))
+    amplitude = float(_numbers("amplitude", amplitude))
+    lowest, highest = curve.turning_points(amplitude)
     period = curve.period(lowest, highest)
     return KinematicOscillation(
-        amplitude=float(amplitude),
+        amplitude=amplitude,
         lowest=lowest,
         highest=highest,
         wavelength=period * math.sqrt(contact_spacing * radius),
@@ -351,6 +353,13 @@ def _checked(y: ArrayLike, difference: ArrayLike) -> tuple[FloatArray, FloatArra
     return shifts, heights
 
 
+def _numbers(what: str, values: ArrayLike) -> FloatArray:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise WheelsetError(f"{what} = {values!r}: give numbers in m") from None
+
+
 def _check_length(what: str, value: float) -> None:
-    if not (math.isfinite(value) and 0.0 < value <= 3.0):
+    if not (isinstance(value, Real) and math.isfinite(value) and 0.0 < value <= 3.0):
         raise WheelsetError(f"{what} = {value!r} m: give a positive length in m")

@@ -30,6 +30,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.geometry.rigid import ContactGeometry, searched_geometry
@@ -127,6 +128,9 @@ def piecewise_geometry(
         raise WheelsetError(f"representation {representation!r}: use 'cubic' or 'polynomial'")
     if not 1 <= highest_degree < _FIT_POINTS:
         raise WheelsetError(f"highest_degree = {highest_degree!r}: give 1 to {_FIT_POINTS - 1}")
+    half_range = number("half_range", half_range, "m", 1e-5, 0.1, "the largest shift, in metres")
+    spacing = number("spacing", spacing, "m", 1e-7, half_range)
+    tolerance = number("tolerance", tolerance, "m", 1e-12, 1e-2)
     allowed = tolerance * TOLERANCE_FACTORS
     left = _MOST_SEARCHES * max(1.0, math.sqrt(2.0e-6 / tolerance))
 

@@ -271,9 +271,18 @@ def searched_geometry(
     """As `contact_geometry`, without a warning: for searches that call it many times."""
     if method not in METHODS:
         raise WheelsetError(f"method {method!r} is unknown: use one of {', '.join(METHODS)}")
-    shifts, yaws = np.broadcast_arrays(
-        np.atleast_1d(np.asarray(y, dtype=float)), np.asarray(yaw, dtype=float)
-    )
+    if not isinstance(wheelset, Wheelset) or not isinstance(track, Track):
+        raise WheelsetError(
+            f"wheelset = {wheelset!r}, track = {track!r}: give a Wheelset and a Track"
+        )
+    try:
+        shifts, yaws = np.broadcast_arrays(
+            np.atleast_1d(np.asarray(y, dtype=float)), np.asarray(yaw, dtype=float)
+        )
+    except (TypeError, ValueError) as error:
+        raise WheelsetError(
+            f"y = {y!r}, yaw = {yaw!r}: give numbers [m, rad] of one shape ({error})"
+        ) from None
     if not (np.all(np.isfinite(shifts)) and np.all(np.isfinite(yaws))):
         raise WheelsetError("y and yaw must be finite numbers [m, rad]")
     if np.any(np.abs(yaws) > 0.3):

@@ -36,6 +36,7 @@ from exudyn_wheelset.profiles.formats.raw import (
 )
 from exudyn_wheelset.profiles.noise import warn_of_noise
 from exudyn_wheelset.profiles.profile import Profile
+from exudyn_wheelset.results.files import write_atomically
 
 BUNDLED = ("S1002", "UIC60", "AAR_1_20", "cone_1_20", "knife_edge")
 FORMATS = ("two-column", "simpack", "miniprof", "vampire", "gensys")
@@ -74,6 +75,13 @@ def load_profile(
     Raises ProfileError, which names the file, the line and the mend.
     """
     check_options(kind, smoothing)
+    if not isinstance(name_or_path, str | os.PathLike | Profile):
+        raise ProfileError(
+            f"{name_or_path!r} is no profile: give a Profile, a file, or one of the names "
+            f"{', '.join(BUNDLED)}"
+        )
+    if unit is not None and unit_word(unit) is None:
+        raise ProfileError(f"unit={unit!r}; use 'mm', 'm', 'cm' or 'inch'")
     if side not in _SIDES:
         raise ProfileError(f"side={side!r}; use 'left' or 'right'")
     if format is not None and format not in FORMATS:
@@ -119,7 +127,7 @@ def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | N
     format: "two-column" or "simpack"; without it the suffixes .prw and .prr give SIMPACK and any
     other suffix two columns in millimetres. A mirrored profile is written in the frame of the side
     that is stored (y > 0 to the field side). Raises ProfileError for an unknown format or a suffix
-    that belongs to the other kind.
+    that belongs to the other kind, FileError where it cannot be written.
     """
     target = Path(path)
     suffix = target.suffix.lower()
@@ -134,8 +142,9 @@ def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | N
         )
     stored = profile.mirrored() if profile.is_mirrored else profile
     text = simpack.write(stored) if format == "simpack" else two_column.write(stored)
-    target.write_text(text, encoding="utf-8", newline="\n")
-    return target
+    return write_atomically(
+        target, lambda part: part.write_text(text, encoding="utf-8", newline="\n")
+    )
 
 
 def _bundled(name: str) -> Profile | None:

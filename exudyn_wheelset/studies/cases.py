@@ -48,9 +48,18 @@ def latin_hypercube(
     from scipy.stats import qmc
 
     bounds = {**dict(ranges or {}), **more}
-    if not bounds or count < 1:
-        raise WheelsetError(f"count = {count}: give at least one case and one range (low, high)")
-    for name, (low, high) in bounds.items():
+    whole = isinstance(count, int | np.integer) and not isinstance(count, bool)
+    if not bounds or not whole or count < 1:
+        raise WheelsetError(
+            f"count = {count!r}: give a whole number, at least one case, and one range (low, high)"
+        )
+    for name, ends in bounds.items():
+        try:
+            low, high = map(float, ends)
+        except (TypeError, ValueError):
+            raise WheelsetError(
+                f"{name} = {ends!r}: give two numbers (low, high), low below high"
+            ) from None
         if not (np.isfinite(low) and np.isfinite(high) and low < high):
             raise WheelsetError(f"{name} = ({low!r}, {high!r}): give (low, high), low below high")
     unit = qmc.LatinHypercube(len(bounds), rng=np.random.default_rng(seed)).random(count)
@@ -100,6 +109,8 @@ def listed(cases: Any) -> list[Case]:
         return grid(cases)
     if isinstance(cases, str | Path) or hasattr(cases, "columns"):
         return table_rows(cases)
+    if not isinstance(cases, Iterable):
+        raise WheelsetError(f"cases = {cases!r}: give a list of cases, a grid, or a table")
     found = [normal_case(case if isinstance(case, Mapping) else {"case": case}) for case in cases]
     if not found:
         raise WheelsetError("there is no case to study: give at least one")

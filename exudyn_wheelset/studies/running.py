@@ -64,6 +64,16 @@ def study(
     `if __name__ == "__main__":`. Raises WheelsetError for a function that cannot be sent to
     another process, for a file of another study and where a process dies.
     """
+    if not callable(function):
+        raise WheelsetError(f"function = {function!r}: give a function of a case")
+    is_count = isinstance(executor, int) and not isinstance(executor, bool)
+    if (is_count and executor < 1) or not (
+        executor is None or is_count or hasattr(executor, "submit")
+    ):
+        raise WheelsetError(
+            f"executor = {executor!r}: give a number of processes from 1, None for one a core, or "
+            "a concurrent.futures.Executor"
+        )
     rows = listed(cases)
     given = {name: plain_value(name, value) for name, value in (settings or {}).items()}
     record: dict[str, Any] = {

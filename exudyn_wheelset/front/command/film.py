@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.animation import render, write_image
 from exudyn_wheelset.front.command.simulate import add_run_options, motion_numbers, motion_of
@@ -47,7 +48,8 @@ def compute(arguments: argparse.Namespace) -> dict[str, Any]:
         raise WheelsetError("give the folder of the film: --out FOLDER")
     chosen = chosen_vehicle(arguments)
     stem = arguments.out / chosen.stem("film")
-    size = (arguments.size[0], arguments.size[1])
+    width, height = (int(number("--size", side, "pixels", 32, 8192)) for side in arguments.size)
+    size = (width, height)
     if arguments.picture:
         if arguments.settings is not None:
             raise WheelsetError("--settings have no effect on a --picture: leave one of them out")
