@@ -65,6 +65,7 @@ _PLACES = {
     "Irregularity": "track.irregularity",
     "Spectrum": "track.spectra",
     "basin": "stability.maps.basins",
+    "citation": "front.citation",
     "contact_energy": "contact.wheelset_contact",
     "contact_forces": "contact.wheelset_contact",
     "contact_geometry": "geometry.rigid",

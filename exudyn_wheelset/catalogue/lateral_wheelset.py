@@ -47,6 +47,12 @@ class LateralParameters:
     lateral_damping [N s/m] of one side; conicity [-]; axle_load W_a [N] with the wheelset's
     weight; friction [-]; shear_modulus [Pa]; poisson [-]; rail_head_radius [m], which gives the
     knife-edge codes their contact ellipse.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import LateralParameters
+    >>> LateralParameters(mass=1800).radius
+    0.3556
     """
 
     mass: float = 1751.0
@@ -82,7 +88,14 @@ PAPER_SPRINGS = ((2.85e5, 1.84e5), (2.85e6, 1.84e6), (9.12e6, 5.84e6))
 
 
 def paper_parameters(spring_set: int, **changes: float) -> LateralParameters:
-    """Parameters of Table 1 with spring set 1, 2 or 3."""
+    """Parameters of Table 1 with spring set 1, 2 or 3.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import paper_parameters
+    >>> paper_parameters(2).lateral_stiffness > paper_parameters(1).lateral_stiffness
+    True
+    """
     if spring_set not in (1, 2, 3):
         raise WheelsetError(f"spring_set = {spring_set!r}: Table 1 has the sets 1, 2 and 3")
     k_x, k_y = PAPER_SPRINGS[spring_set - 1]
@@ -100,6 +113,13 @@ class LateralWheelset(DynamicSystem):
     inertial: False leaves out the spin's gyroscopic terms, or m z'' and I_x phi'' in (3) and (4).
     representation: "cubic" or "polynomial" contact geometry (contact/piecewise.py).
     Raises WheelsetError for an unknown code, ContactError for profiles that do not meet.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import LateralWheelset, linear_critical_speed
+    >>> model = LateralWheelset("idealized")
+    >>> round(linear_critical_speed(model, 10, 100).speed, 1)
+    36.6
     """
 
     state_names = ("y [m]", "yaw [rad]", "y' [m/s]", "yaw' [rad/s]")

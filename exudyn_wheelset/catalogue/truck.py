@@ -77,6 +77,13 @@ class Truck:
     the secondary springs; contact: keyword arguments of `contact_parameters`; driven: the spins
     are held at V/radius.
     Raises WheelsetError for impossible values.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Truck, dtu_truck
+    >>> truck = dtu_truck()
+    >>> isinstance(truck, Truck), round(2 * truck.half_wheelbase, 3)
+    (True, 2.148)
     """
 
     wheelset: Wheelset
@@ -288,6 +295,12 @@ def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truc
 
     The source computes the shear modulus with a slip of sign (1.438e11 Pa); here it is
     E/(2 (1 + nu)) = 8.27e10 Pa. contact: changes to the arguments of `contact_parameters`.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import dtu_truck
+    >>> round(dtu_truck(friction=0.3).weight / 1e3, 1)  # [kN]
+    266.4
     """
     return Truck(
         wheelset=Wheelset(mass=1022.0, inertia=(678.0, 80.0, 678.0), radius=0.425, wheel=wheel),

@@ -32,6 +32,12 @@ class Suspension:
 
     half_distance b [m] from the axle's centre; stiffness (x, y, z) [N/m] and damping (x, y, z)
     [N s/m] of one end.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Suspension
+    >>> Suspension(half_distance=1.0, stiffness=(1.6e6, 4e5, 1.2e6)).damping
+    (0.0, 0.0, 0.0)
     """
 
     half_distance: float
@@ -54,6 +60,15 @@ class WheelsetOnFrame:
     axle_load [N]: what both wheels carry, the wheelset's weight included; contact: keyword
     arguments of `contact_parameters` (normal, creep, friction, shear_modulus, poisson, damping);
     driven: the spin is held at V/radius (spin_drive.py), otherwise the wheelset rolls freely.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Suspension, Track, Wheelset, WheelsetOnFrame
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> springs = Suspension(1.0, (1.6e6, 4e5, 1.2e6))
+    >>> model = WheelsetOnFrame(axle, Track("UIC60"), springs, axle_load=120e3)
+    >>> model.vehicle().mass
+    1500.0
     """
 
     wheelset: Wheelset

@@ -53,6 +53,13 @@ class Wheelset:
     wheel at the tape circle; wheel: profile, name or path; tape_half_distance [m] from the axle's
     centre to a tape circle. right_wheel and right_radius default to the left ones.
     Raises WheelsetError for values that no wheelset has.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Wheelset
+    >>> axle = Wheelset(mass=1500, inertia=(800, 110, 800), radius=0.46, wheel="S1002")
+    >>> axle.wheel.name, axle.tape_half_distance
+    ('S1002', 0.75)
     """
 
     mass: float
@@ -108,6 +115,13 @@ class Contact:
     0 for the others (contact/friction.py).
     These are the only defaults of a contact in the package. Raises WheelsetError for unknown
     names, with the nearest known one, and for impossible values.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Contact
+    >>> contact = Contact(creep="fastsim", friction=0.4, grid=20)
+    >>> contact.normal, contact.law_parameters
+    ('hertz', (('cells_across', 20.0), ('cells_along', 20.0)))
     """
 
     normal: str = "hertz"
@@ -256,6 +270,13 @@ class Track:
     Instead of the gauge, datum_half_distance [m] may place the rails' highest points directly.
     layout: how the track lies, None for straight and level for ever; irregularity: how far the
     rails lie off that, None for not at all.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track
+    >>> track = Track("UIC60", gauge=1.435, inclination=1 / 40)
+    >>> round(2 * track.left_placement.datum_y, 3)  # [m] between the rails' tops
+    1.521
     """
 
     rail: Profile

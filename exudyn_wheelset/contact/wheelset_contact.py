@@ -136,6 +136,16 @@ def contact_forces(
     slope [-] along the track of the left and of the right rail (contact/forces.py); patches are
     given in axes that follow it. contact: a Contact, or its numbers by keyword.
     Raises WheelsetError for numbers that are not finite, of the wrong count, or unknown names.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track, Wheelset, contact_forces, contact_geometry
+    >>> axle, track = Wheelset(1500, (800, 110, 800), 0.46, "S1002"), Track("UIC60")
+    >>> z = contact_geometry(axle, track, 0.0).z[0] - 1e-4  # pressed in by 0.1 mm
+    >>> rolling = (20, 0, 0, 0, 20 / 0.46, 0)
+    >>> found = contact_forces(axle, track, (0, 0, z, 0, 0, 0), rolling)
+    >>> round(found.force[2] / 1e3)  # [kN]
+    295
     """
     _, y, z, roll, _, yaw = _numbers("pose (x, y, z, roll, pitch, yaw)", pose, 6)
     motion_of_centre = _numbers("velocity (vx, vy, vz, wx, wy, wz)", velocity, 6)
@@ -174,6 +184,14 @@ def contact_energy(
 
     pose, shear_modulus [Pa], poisson: as in `contact_forces`, whose normal forces with
     normal="energy" are minus the gradient of this energy. Source: contact/energy.py.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track, Wheelset, contact_energy, contact_geometry
+    >>> axle, track = Wheelset(1500, (800, 110, 800), 0.46, "S1002"), Track("UIC60")
+    >>> z = contact_geometry(axle, track, 0.0).z[0]
+    >>> round(contact_energy(axle, track, (0, 0, z - 1e-4, 0, 0, 0)))  # pressed in by 0.1 mm [J]
+    12
     """
     forces = contact_forces(
         wheelset, track, pose, (0.0,) * 6, normal="energy", friction=0.0,
@@ -200,7 +218,10 @@ def _patch(record: np.record) -> Patch:
 
 
 def _numbers(what: str, values: Sequence[float], count: int) -> np.ndarray:
-    array = np.asarray(values, dtype=float)
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.zeros(0)
     if array.shape != (count,) or not np.all(np.isfinite(array)):
         raise WheelsetError(f"{what} = {values!r}: give {count} finite numbers, SI and radians")
     return array

@@ -88,6 +88,16 @@ def create_wheelset(
     already.
     Raises WheelsetError for impossible values, ContactError where the wheelset does not meet the
     rails.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn_wheelset import Track, Wheelset, create_wheelset
+    >>> mbs = exu.SystemContainer().AddSystem()
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> items = create_wheelset(mbs, axle, Track("UIC60"), speed=40, moving_frame=True)
+    >>> items.name, items.body
+    ('wheelset', 0)
     """
     check_contact_names(creep, law_parameters, _OWN_OPTIONS)
     check_kinds(mbs, wheelset, track, contact)

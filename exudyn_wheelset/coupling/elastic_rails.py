@@ -29,6 +29,12 @@ class RailElasticity:
 
     lateral_stiffness, vertical_stiffness [N/m]; lateral_damping, vertical_damping [N s/m], all
     positive. Common values for a rail on sleepers are 2e7 and 6e7 N/m, 1e5 and 2e5 N s/m.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import RailElasticity
+    >>> RailElasticity(vertical_stiffness=5e7).lateral_stiffness
+    20000000.0
     """
 
     lateral_stiffness: float = 2.0e7

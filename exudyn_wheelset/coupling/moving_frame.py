@@ -149,6 +149,20 @@ def add_frame_loads(
     reference orientation; gravity [m/s^2]: of the weights that the model has along -z. Exudyn's
     ground becomes the frame: origin on the track's centre line, x along it, z canted.
     Raises WheelsetError for nodes of other kinds.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn.utilities import InertiaCuboid
+    >>> from exudyn_wheelset import Curve, Layout, TrackFrame, add_frame_loads
+    >>> mbs = exu.SystemContainer().AddSystem()
+    >>> body = mbs.CreateRigidBody(
+    ...     inertia=InertiaCuboid(density=500, sideLengths=[1, 1, 1]), referencePosition=[0, 0, 1],
+    ...     nodeType=exu.NodeType.RotationRotationVector, returnDict=True)
+    >>> frame = TrackFrame(Layout([Curve(radius=300, length=500)]))
+    >>> loads = add_frame_loads(mbs, frame, [(body["nodeNumber"], 500.0, (83.0, 83.0, 83.0))])
+    >>> mbs.GetObject(loads)["name"]
+    'moving frame'
     """
     nodes, rows = [], []
     for node, mass, inertia in bodies:

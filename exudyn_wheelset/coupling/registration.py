@@ -29,6 +29,16 @@ class WheelsetItems:
     left_sensor, right_sensor: user sensors with SENSOR_VALUES of either wheel (None if not asked
     for); contact: the WheelRailContact behind the loads; name: of the body, the only one in its
     system; moving_frame: whether the model stands in a frame that moves at the forward speed.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn_wheelset import Track, Wheelset, create_wheelset
+    >>> mbs = exu.SystemContainer().AddSystem()
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> items = create_wheelset(mbs, axle, Track("UIC60"), name="leading")
+    >>> items.name, items.moving_frame
+    ('leading', False)
     """
 
     node: int
@@ -74,6 +84,18 @@ def wheelsets_of(mbs: Any) -> tuple[WheelsetItems, ...]:
     """The wheelsets that `create_wheelset` has added to `mbs`, in the order of their creation.
 
     Raises WheelsetError for what is no Exudyn system.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn_wheelset import Track, Wheelset, create_wheelset, wheelsets_of
+    >>> mbs = exu.SystemContainer().AddSystem()
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> for name, x in (("leading", 1.2), ("trailing", -1.2)):
+    ...     items = create_wheelset(mbs, axle, Track("UIC60"), position=(x, 0), name=name)
+    ...
+    >>> [items.name for items in wheelsets_of(mbs)]
+    ['leading', 'trailing']
     """
     if not isinstance(mbs, exu.MainSystem):
         raise WheelsetError(f"mbs is a {type(mbs).__name__}: give Exudyn's system, SC.AddSystem()")

@@ -19,6 +19,13 @@ class TrackFrame:
     layout, irregularity: of the track, or None. At time zero it stands at the station `start` [m]
     and has the speed [m/s]. Until it is live the track is everywhere as at `start`, without
     irregularity. array: for the kernels, track_kernel.py.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Curve, Layout, Straight, TrackFrame, Transition
+    >>> layout = Layout([Straight(50), Transition(40), Curve(300, 100)])
+    >>> TrackFrame().is_plain, TrackFrame(layout).is_plain
+    (True, False)
     """
 
     def __init__(

@@ -64,6 +64,16 @@ class WheelRailContact:
     how it goes along the track, shared by all wheelsets of a vehicle (None: one of its own);
     elasticity: springs under each rail, or None for rails that do not give way; name: of the
     wheelset.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn_wheelset import Track, Wheelset, create_wheelset
+    >>> mbs = exu.SystemContainer().AddSystem()
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> contact = create_wheelset(mbs, axle, Track("UIC60"), speed=40, moving_frame=True).contact
+    >>> contact.rail_speed
+    40.0
     """
 
     wheelset: Wheelset

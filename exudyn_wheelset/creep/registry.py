@@ -113,6 +113,20 @@ def register_creep_law(
     and meaning. The function must be defined, and registered, in every process that uses the name.
     Raises WheelsetError for a name that is taken by a law of the package, for names of parameters
     that are arguments already and for a function that cannot be compiled.
+
+    Examples
+    --------
+    >>> from numba import njit
+    >>> from exudyn_wheelset import creep_force, register_creep_law
+    >>> @njit
+    ... def dry(creep_x, creep_y, spin, a, b, normal_force, friction, modulus, poisson, own):
+    ...     size = max((creep_x**2 + creep_y**2) ** 0.5, own[0])
+    ...     pull = -friction * normal_force / size
+    ...     return pull * creep_x, pull * creep_y, 0.0
+    ...
+    >>> law = register_creep_law("dry", dry, {"smallest": 1e-4})
+    >>> creep_force("dry", 1e-3, 0, 0, 5e-3, 5e-3, 80e3, 0.25, 82e9, 0.28)[0]
+    -20000.0
     """
     if not isinstance(name, str) or not name:
         raise WheelsetError(f"name = {name!r} of a creep law: give a word")
@@ -186,6 +200,14 @@ def creep_force(
     shear_modulus [Pa] > 0; poisson from 0 to 0.5. Fx, Fy [N] oppose the creep, Mz [N m] about z.
     `parameters` are those of the law, `creep_law(law).parameters`.
     Raises WheelsetError for an unknown law or parameter and for values out of range or not finite.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import creep_force
+    >>> patch = dict(a=5.5e-3, b=5.5e-3, normal_force=80e3, friction=0.3)
+    >>> fx, fy, mz = creep_force("polach", 1e-3, 0, 0, **patch, shear_modulus=82e9, poisson=0.28)
+    >>> round(fx / 1e3, 1)  # [kN], against the creep
+    -9.7
     """
     description = creep_law(law)
     parameters = description.expand(parameters)

@@ -61,6 +61,14 @@ def film(
     size     (width, height) [pixels]; smooth: samples along each side of a pixel
 
     Raises WheelsetError for a motion of another vehicle and for impossible values.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, film, simulate
+    >>> wheelset = catalogue.vehicle("s1002").vehicle()
+    >>> motion = simulate(wheelset, speed=20, duration=0.1, initial=2e-3)
+    >>> film(wheelset, motion, "run.gif", size=(64, 48), rate=10).name
+    'run.gif'
     """
     rate, slow = positive("rate", rate, "1/s", 240.0), positive("slow", slow, "-", 1e4)
     size = _even(size)

@@ -64,6 +64,13 @@ def profile_report(
     the errors of neighbours are alike; curvature_noise [1/m]; conicity_1mm, conicity_3mm,
     automatic_conicity_1mm, automatic_conicity_3mm, spread_1mm, spread_3mm [-] (None without
     contact).
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import load_profile, profile_report
+    >>> report = profile_report(load_profile("S1002"), samples=0)
+    >>> round(report.numbers["conicity_3mm"], 2)
+    0.18
     """
     if partner is None:
         partner = "UIC60" if profile.kind == "wheel" else "S1002"

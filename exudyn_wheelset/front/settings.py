@@ -32,6 +32,13 @@ def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.Simu
 
     Raises SettingsError for a file that cannot be read or is no JSON object, unknown names, wrong
     types, unknown enum values and numbers outside Exudyn's range.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import load_settings
+    >>> settings = load_settings({"timeIntegration": {"endTime": 2.0, "solverType": "RK44"}})
+    >>> settings.timeIntegration.endTime
+    2.0
     """
     settings = exu.SimulationSettings()
     if source is None:

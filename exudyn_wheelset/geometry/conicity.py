@@ -84,6 +84,14 @@ def equivalent_conicity(
     Raises WheelsetError for data that are no such function (order, NaN, shape), without a position
     of rest, where no such position is stable ("integration"), or short of the amplitude.
     Source: EN 15302; the module's header has the equations.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import equivalent_conicity
+    >>> y = np.linspace(-0.01, 0.01, 201)
+    >>> float(equivalent_conicity(y, 2 * 0.05 * y, 3e-3).round(4))  # a cone of 1:20
+    0.05
     """
     if method not in METHODS:
         raise WheelsetError(f"method {method!r} is unknown: use one of {', '.join(METHODS)}")

@@ -123,6 +123,14 @@ def piecewise_geometry(
     A profile whose curvature is measurement noise jumps at every turn: it gets straight lines
     between the searched points, with their residuals, and a WheelsetWarning.
     Raises ContactError if a wheel leaves its rail within the range.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track, Wheelset, piecewise_geometry
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "cone_0.05")
+    >>> pieces = piecewise_geometry(axle, Track("UIC60"), half_range=2e-3)
+    >>> len(pieces.jumps)
+    0
     """
     if representation not in REPRESENTATIONS:
         raise WheelsetError(f"representation {representation!r}: use 'cubic' or 'polynomial'")

@@ -253,6 +253,14 @@ def contact_geometry(
     of "nelder-mead".
     Raises ContactError where no roll angle brings both wheels onto their rails. WheelsetWarning
     where contact jumps from crest to crest of a profile's measurement noise.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track, Wheelset, contact_geometry
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> found = contact_geometry(axle, Track("UIC60"), y=[0.0, 0.003])
+    >>> (1e3 * found.rolling_radius_difference).round(2)  # [mm]
+    array([0.  , 0.99])
     """
     found = searched_geometry(wheelset, track, y, yaw, method, weights)
     places = np.column_stack((found.left.wheel_y, found.right.wheel_y))

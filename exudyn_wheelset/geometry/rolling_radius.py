@@ -61,6 +61,14 @@ def rolling_radius_curve(
     "axle" or "level", see the module's header. `y` and `rolling_radius_difference` of the result
     are what `equivalent_conicity` takes; `geometry` is the contact over the axle's centre.
     Raises ContactError where there is no contact even near the centre.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Track, Wheelset, equivalent_conicity, rolling_radius_curve
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> y, difference, geometry = rolling_radius_curve(axle, Track("UIC60"), reach=5e-3)
+    >>> float(equivalent_conicity(y, difference, 3e-3).round(2))
+    0.18
     """
     if shift not in SHIFTS:
         raise WheelsetError(f"shift {shift!r} is unknown: use one of {', '.join(SHIFTS)}")

@@ -73,6 +73,13 @@ def load_profile(
     unsmoothed curve worthless.
 
     Raises ProfileError, which names the file, the line and the mend.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import load_profile
+    >>> wheel = load_profile("S1002")
+    >>> wheel.kind, round(1e3 * float(wheel.height(-0.03)), 2)  # [mm], flange side
+    ('wheel', -3.92)
     """
     check_options(kind, smoothing)
     if not isinstance(name_or_path, str | os.PathLike | Profile):
@@ -128,6 +135,13 @@ def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | N
     other suffix two columns in millimetres. A mirrored profile is written in the frame of the side
     that is stored (y > 0 to the field side). Raises ProfileError for an unknown format or a suffix
     that belongs to the other kind, FileError where it cannot be written.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import load_profile, save_profile
+    >>> path = save_profile(load_profile("S1002"), "s1002.prw")
+    >>> load_profile(path).kind
+    'wheel'
     """
     target = Path(path)
     suffix = target.suffix.lower()

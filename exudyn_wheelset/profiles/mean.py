@@ -40,6 +40,13 @@ def mean_profile(sections: Sequence[Profile], smoothing: float | str = "auto") -
     `load_profile`, of the mean. What lies beyond one of the sections is cut off. The remarks say
     how far the sections had to be moved. Raises ProfileError where kinds or sides differ, or where
     two sections cannot be laid on each other.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import load_profile, mean_profile
+    >>> sections = [load_profile("S1002"), load_profile("S1002").shifted(0.0, 1e-5)]
+    >>> mean_profile(sections).kind
+    'wheel'
     """
     sections = list(sections)
     if len(sections) < 2 or not all(isinstance(section, Profile) for section in sections):

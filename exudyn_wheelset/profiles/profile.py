@@ -53,6 +53,15 @@ class Profile:
     or undercut where its points end, so its last point is the one nearest to the track centre.
 
     Raises ProfileError where the points cannot be such a profile; the message gives the mend.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import Profile
+    >>> y = np.linspace(-0.07, 0.06, 131)
+    >>> wheel = Profile("taper", "wheel", y, 0.05 * y)
+    >>> round(float(wheel.slope(0.01)), 4)
+    0.05
     """
 
     name: str

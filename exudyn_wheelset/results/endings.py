@@ -14,7 +14,14 @@ from typing import Any
 
 
 class Ending(Enum):
-    """A way to end; the value says it in words."""
+    """A way to end; the value says it in words.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Ending
+    >>> Ending.FINISHED.name
+    'FINISHED'
+    """
 
     FINISHED = "the planned end was reached"
     INTERRUPTED = "interrupted by the user"
@@ -57,7 +64,14 @@ class Ending(Enum):
 
 @dataclass(frozen=True)
 class Outcome:
-    """An ending with its numbers: `detail` says which wheelset, speed or height, or is empty."""
+    """An ending with its numbers: `detail` says which wheelset, speed or height, or is empty.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Ending, Outcome
+    >>> str(Outcome(Ending.FINISHED))
+    'the planned end was reached'
+    """
 
     ending: Ending
     detail: str = ""

@@ -45,6 +45,15 @@ class Motion:
     coordinates  (m, nq) Exudyn's second-order coordinates, for drawing the model again; (m, 0)
                  for a system that is not Exudyn's
     start        station [m] of the vehicle's origin at time zero
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, simulate
+    >>> motion = simulate(catalogue.vehicle("s1002"), speed=20, duration=0.1, initial=2e-3)
+    >>> round(1e3 * float(motion["wheelset: y"][0]), 2)  # [mm]
+    2.0
+    >>> sorted(motion.wheel("wheelset", "left"))[:2]
+    ['Q [N]', 'Y [N]']
     """
 
     time: Array

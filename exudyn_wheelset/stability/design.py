@@ -71,6 +71,13 @@ def design(
     options        of `nonlinear_critical_speed`
 
     Raises AnalysisError where the numbers cannot reach it, with how far they have come.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import design
+    >>> found = design("cooperrider", {"linear_critical_speed": 70.0}, vary=["conicity"])
+    >>> [round(float(value), 4) for value in found.changes["conicity"]]
+    [0.05, 0.0482]
     """
     for name in wanted:
         if name not in SPEEDS:

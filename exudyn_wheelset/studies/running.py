@@ -63,6 +63,17 @@ def study(
     Processes are started anew, not forked: a script that calls this needs
     `if __name__ == "__main__":`. Raises WheelsetError for a function that cannot be sent to
     another process, for a file of another study and where a process dies.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import linear_critical_speed, study
+    >>> from exudyn_wheelset.catalogue import vehicle
+    >>> def critical(case):
+    ...     return linear_critical_speed(vehicle("cooperrider", **case), 20, 120)
+    ...
+    >>> found = study(critical, {"conicity": [0.05, 0.1]}, executor=1, progress=False)
+    >>> [round(float(speed), 1) for speed in found.table["value"]]
+    [68.6, 47.5]
     """
     if not callable(function):
         raise WheelsetError(f"function = {function!r}: give a function of a case")

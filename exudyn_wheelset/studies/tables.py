@@ -67,6 +67,13 @@ class Study:
 
     record  name of the function, settings, versions
     rows    for each case a mapping of `case`, `result` and `reason` ("" where it has a result)
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import study
+    >>> found = study(len, [{"a": 1}, {"a": 1, "b": 2}], executor=1)
+    >>> len(found), found.table["value"].tolist()
+    (2, [1.0, 2.0])
     """
 
     record: dict[str, Any]

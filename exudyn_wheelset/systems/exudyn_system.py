@@ -78,6 +78,24 @@ class ExudynSystem(DynamicSystem):
     Raises AnalysisError for nodes with Euler parameters, data coordinates (hidden states), nodes
     that cannot spin, wheelsets that run over the ground (their speed is no parameter of the model)
     and a model that has neither wheelsets nor `set_speed`.
+
+    Examples
+    --------
+    >>> import exudyn as exu
+    >>> from exudyn_wheelset import ExudynSystem, Track, Wheelset, create_wheelset
+    >>> SC = exu.SystemContainer()
+    >>> mbs = SC.AddSystem()
+    >>> axle = Wheelset(1500, (800, 110, 800), 0.46, "S1002")
+    >>> items = create_wheelset(mbs, axle, Track("UIC60"), moving_frame=True, name="axle")
+    >>> load = mbs.CreateForce(itemNumber=items.body, loadVector=[0, 0, -1e5])
+    >>> frame = mbs.CreateGround()
+    >>> for y in (1.0, -1.0):
+    ...     spring = mbs.CreateCartesianSpringDamper(
+    ...         itemNumbers=[frame, items.body], stiffness=[2e6, 1e6, 0],
+    ...         localPosition0=[0, y, 0.46], localPosition1=[0, y, 0])
+    ...
+    >>> ExudynSystem(mbs, SC).state_names[:2]
+    ('x [m]', 'y [m]')
     """
 
     def __init__(

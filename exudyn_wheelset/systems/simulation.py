@@ -84,6 +84,13 @@ def simulate(
 
     Bodies keep what they do in the model: `mbs` may have joints, memory and wheelsets that run over
     the ground, whose speed is that of their creation. Raises WheelsetError for impossible values.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, simulate
+    >>> motion = simulate(catalogue.vehicle("s1002"), speed=20, duration=0.5, initial=2e-3)
+    >>> round(float(motion.time[-1]), 3), str(motion.outcome)
+    (0.5, 'the planned end was reached')
     """
     refuse_options(simulate, others)
     if not isinstance(settings, exu.SimulationSettings | None):

@@ -42,6 +42,13 @@ class SteadyCurve:
     state (n,): of the vehicle's system, where a motion may begin; motion: its one sample as data,
     with all that is read off a motion; patches: by wheelset and side, in the axes of the track at
     the wheelset; system: name, states and settings.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, steady_curve
+    >>> curve = steady_curve(catalogue.vehicle("manchester_coach"), radius=300, cant=0.12, speed=18)
+    >>> curve.radius, curve.cant
+    (300.0, 0.12)
     """
 
     radius: float
@@ -122,6 +129,13 @@ def steady_curve(
 
     gradient: rise a metre [-]; widening [m] of the gauge. Raises AnalysisError where there is no
     steady running, with how much of the curve was reached, and WheelsetError for impossible values.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, steady_curve
+    >>> curve = steady_curve(catalogue.vehicle("manchester_coach"), radius=300, cant=0.12, speed=18)
+    >>> curve.motion.y.shape  # samples and wheelsets
+    (1, 4)
     """
     if not isinstance(vehicle, Vehicle):
         raise AnalysisError(

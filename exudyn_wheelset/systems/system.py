@@ -70,6 +70,14 @@ class DynamicSystem(ABC):
                           [m]"); empty where every body with y and yaw may be one
     trucks                labels of the wheelsets of each truck, by its name; empty for one truck
     source                the description that `as_system` made it from
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import DynamicSystem
+    >>> from exudyn_wheelset.catalogue import vehicle_system
+    >>> bogie = vehicle_system("cooperrider")
+    >>> isinstance(bogie, DynamicSystem), bogie.size
+    (True, 14)
     """
 
     name: str
@@ -322,6 +330,18 @@ class FunctionSystem(DynamicSystem):
     `jacobian_function(state, speed) -> (n, n)` and the vectorised `derivatives_function` and
     `jacobians_function` (states (m, n), speed) replace the defaults where they are given.
     `displacement_indices` defaults to the first half of the states.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import FunctionSystem, linear_critical_speed
+    >>> def pendulum(state, speed):  # damped below 30 m/s, driven above
+    ...     x, rate = state
+    ...     return np.array([rate, -40.0 * x + (speed - 30.0) * rate])
+    ...
+    >>> system = FunctionSystem("pendulum", pendulum, ["x [m]", "rate [m/s]"], [1e-3, 1e-2])
+    >>> round(linear_critical_speed(system, 20, 40).speed, 3)
+    30.0
     """
 
     def __init__(

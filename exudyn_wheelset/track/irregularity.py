@@ -39,6 +39,17 @@ class Irregularity:
     `from_points`, `from_functions` or `load`. name: what it is, for records. Immutable, hashable,
     equal to another of the same numbers. Raises WheelsetError with the row for distances that fall
     or stand still and for what is no number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import Irregularity
+    >>> x = np.linspace(0, 20, 41)
+    >>> shifts = np.zeros((4, 41))  # left y, left z, right y, right z [m]
+    >>> shifts[1] = 2e-3 * np.sin(x)
+    >>> rough = Irregularity.from_points(x, *shifts)
+    >>> round(1e3 * float(np.abs(rough.shifts[:, 1]).max()), 1)  # [mm]
+    2.0
     """
 
     def __init__(self, distance: Any, shifts: Any, name: str = "points") -> None:

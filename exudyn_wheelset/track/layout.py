@@ -49,7 +49,14 @@ def _check_element(element: Any, what: str) -> None:
 
 @dataclass(frozen=True)
 class Straight:
-    """Straight level track of a length [m]; start [m]: its station, to be checked if given."""
+    """Straight level track of a length [m]; start [m]: its station, to be checked if given.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Straight
+    >>> Straight(50).length
+    50.0
+    """
 
     length: float
     start: float | None = None
@@ -63,6 +70,12 @@ class Curve:
     """Circular curve: radius [m], positive to the left, length [m] along the centre line.
 
     cant [m]: rise of the outer rail over the inner one; widening [m] of the gauge.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Curve
+    >>> Curve(radius=-500, length=200, cant=0.1).radius  # to the right
+    -500.0
     """
 
     radius: float
@@ -94,6 +107,12 @@ class Transition:
     """Transition curve of a length [m] between the elements beside it; shape: see transitions.py.
 
     At an end of the layout it leads to straight track.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Transition
+    >>> Transition(40, shape="bloss").shape
+    'bloss'
     """
 
     length: float
@@ -117,6 +136,13 @@ class Layout:
     straight lines between, constant beyond; base [m]: distance that cant is measured over;
     rounding [m]: of kinks of cant and gradient. Raises WheelsetError for a jump in curvature or
     cant, a gap between stations that are given, and what no track has.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Curve, Layout, Straight, Transition
+    >>> layout = Layout([Straight(50), Transition(40), Curve(300, 100, cant=0.1)])
+    >>> layout.length
+    190.0
     """
 
     elements: tuple[TrackElement, ...]

@@ -44,6 +44,12 @@ class Spectrum:
     """One-sided power spectral density of one kind of irregularity.
 
     edition: where it stands; formula, in O [rad/m]; amplitude A [SI]; power p; poles a_i [rad/m].
+
+    Examples
+    --------
+    >>> from exudyn_wheelset.track.spectra import SPECTRA
+    >>> sorted(SPECTRA)[:2]
+    ['ERRI B176 high', 'ERRI B176 low']
     """
 
     edition: str

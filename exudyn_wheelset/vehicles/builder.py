@@ -43,6 +43,19 @@ class VehicleBuilder:
 
     name, track, contact, preload, gravity: as in Vehicle. ground: the far end of connections that
     stand on no body, such as a car body that runs straight.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Spring, Track, VehicleBuilder, Wheelset
+    >>> made = VehicleBuilder("one axle", track=Track("UIC60"))
+    >>> axle = made.wheelset("axle", Wheelset(1500, (800, 110, 800), 0.46, "S1002"))
+    >>> frame = made.body("frame", 3000, (2000, 3000, 4000), (0, 0, 0.8))
+    >>> for y in (1.0, -1.0):
+    ...     spring = made.connect(Spring((2e6, 1e6, 1e6)), axle, frame, at=(0, y, axle.z))
+    ...
+    >>> hold = made.connect(Spring((1e5, 1e5, 1e5)), frame, made.ground, at=(0, 0, 0.8))
+    >>> made.finish().mass
+    4500.0
     """
 
     ground = Part(GROUND, 0.0, 0.0, 0.0)

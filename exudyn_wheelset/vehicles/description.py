@@ -152,6 +152,14 @@ class Vehicle:
     connections are without force in the drawing (but for their `offset`), and the vehicle settles
     from there. gravity [m/s^2]. Raises WheelsetError for names that are not there or there twice,
     bodies that nothing holds, wheelsets that do not stand on the track.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue
+    >>> car = catalogue.vehicle("dtu_car")
+    >>> softer = car.replace("contact.friction", 0.2)
+    >>> len(car.wheelsets), round(car.mass / 1e3, 1)  # [t]
+    (4, 54.3)
     """
 
     name: str

@@ -61,6 +61,13 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     newtons, and ContactError for a wheelset that its rails do not carry. A vehicle that does not
     come to rest (flanges that rest on rails without play, wheelsets that steer away) is told of by
     a WheelsetWarning.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, static_equilibrium
+    >>> rest = static_equilibrium(catalogue.vehicle("dtu_car"))
+    >>> [round(load / 1e3, 1) for load in rest.wheel_loads["front leading"]]  # [kN]
+    [66.6, 66.6]
     """
     rest = find_rest(vehicle)
     parts = vehicle.parts
@@ -111,6 +118,12 @@ def with_free_lengths(vehicle: Vehicle) -> Vehicle:
     """The same vehicle described by free lengths: it settles to where it was drawn.
 
     Each connection's offset becomes its preload over its stiffness, where it has any.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, with_free_lengths
+    >>> with_free_lengths(catalogue.vehicle("dtu_car")).preload
+    'free'
     """
     rest = find_rest(vehicle)
     offsets: dict[str, Array] = {}

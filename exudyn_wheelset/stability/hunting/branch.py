@@ -110,6 +110,14 @@ class Branch:
     method          "continuation"
     orbits          the motions themselves
     record          system, parameters, versions, settings, cost
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import hopf_points, limit_cycles
+    >>> (hopf, *_) = hopf_points("cooperrider", 60, 75)
+    >>> branch = limit_cycles("cooperrider", hopf, (60, 75))
+    >>> [round(float(fold), 1) for fold in branch.folds[:1]]
+    [66.7]
     """
 
     speed: Array

@@ -72,6 +72,20 @@ def quasi_static_descent(
 
     A keyboard interrupt ends the run with what is finished. Raises AnalysisError if the vehicle
     does not hunt at `high`, or if the state file belongs to another run.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import FunctionSystem, quasi_static_descent
+    >>> def fold(state, speed):  # hunts from 1 m/s, and down to 0.75 m/s after a disturbance
+    ...     x, y = state
+    ...     growth = speed - 1 + (x * x + y * y) - (x * x + y * y) ** 2
+    ...     return np.array([growth * x - 6 * y, 6 * x + growth * y])
+    ...
+    >>> system = FunctionSystem("fold", fold, ["x [m]", "y [m]"], [1e-2, 1e-2])
+    >>> descent = quasi_static_descent(system, 0.9, 0.6, step=0.05, disturbance=100)
+    >>> abs(descent.speed - 0.75) < 0.05
+    True
     """
     system = as_system(vehicle)
     if not (low < high and step > 0.0 and tolerance > 0.0):

@@ -128,6 +128,20 @@ def critical_disturbance(
     Loss of contact or derailment counts as hunting: it is what must not happen. A keyboard
     interrupt ends it with the speeds that are finished. Raises AnalysisError for a direction that
     the system does not have.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from exudyn_wheelset import FunctionSystem, critical_disturbance
+    >>> def fold(state, speed):  # hunts from 1 m/s, and down to 0.75 m/s after a disturbance
+    ...     x, y = state
+    ...     growth = speed - 1 + (x * x + y * y) - (x * x + y * y) ** 2
+    ...     return np.array([growth * x - 6 * y, 6 * x + growth * y])
+    ...
+    >>> system = FunctionSystem("fold", fold, ["x [m]", "y [m]"], [1e-2, 1e-2])
+    >>> runs = critical_disturbance(system, 0.9, largest=1.0, direction=0, tolerance=0.05)
+    >>> runs.critical.round(1)  # the unstable cycle: x^2 = (1 - sqrt(0.6))/2
+    array([0.3])
     """
     system = as_system(vehicle)
     values = np.atleast_1d(np.asarray(speeds, dtype=float))

@@ -61,6 +61,14 @@ def limit_cycles(
 
     A branch says how it ends (`outcome`, in words `reason`) and keeps what was found. Raises
     AnalysisError if there is no orbit to begin with.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import hopf_points, limit_cycles
+    >>> (hopf, *_) = hopf_points("cooperrider", 60, 75)
+    >>> branch = limit_cycles("cooperrider", hopf, (60, 75))
+    >>> round(branch.lowest_stable()[0], 1)  # [m/s]
+    66.7
     """
     system = as_system(vehicle)
     low, high = map(float, speeds)

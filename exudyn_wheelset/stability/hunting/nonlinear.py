@@ -150,6 +150,13 @@ def nonlinear_critical_speed(
 
     Raises NoLimitCycleError, which keeps the branch, if no cycle in the range is stable, and
     AnalysisError if there is no Hopf point.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import nonlinear_critical_speed
+    >>> found = nonlinear_critical_speed("cooperrider", low=60, high=75, check=False)
+    >>> round(found.speed, 1)  # [m/s]
+    66.7
     """
     system = as_system(vehicle)
     if method is None:

@@ -63,6 +63,13 @@ def linear_critical_speed(
 
     Raises AnalysisError if hunting does not turn unstable in [low, high]; the message gives the
     growth rates at both ends.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import linear_critical_speed
+    >>> critical = linear_critical_speed("cooperrider", 20, 120)
+    >>> round(critical.speed, 2), round(critical.frequency, 2)  # [m/s], [Hz]
+    (68.64, 4.0)
     """
     spectra = Spectra(as_system(vehicle))
     check_range(low, high, points)

@@ -143,6 +143,13 @@ def hopf_points(
 
     Warns (WheelsetWarning) where the creep law is not linear about one of the equilibria or has
     another slope there than the exact law (see `law_checks`).
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import hopf_points
+    >>> points = hopf_points("cooperrider", 20, 120)
+    >>> round(points[0].speed, 2), points[0].direction
+    (68.64, 'loses stability')
     """
     system = as_system(vehicle)
     changes = stability_changes(system, low, high, points=points, tolerance=tolerance)

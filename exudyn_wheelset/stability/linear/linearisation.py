@@ -124,6 +124,13 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     `guess` is a state (n,) near the equilibrium. Warns (WheelsetWarning) where the creep law is not
     linear there or has another slope than the exact law (see `law_checks`); `law` of the result
     has the numbers. Raises AnalysisError if there is no equilibrium.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import linearise
+    >>> linear = linearise("cooperrider", 60.0)
+    >>> bool(linear.eigenvalues.real.max() < 0.0)  # stable
+    True
     """
     system = as_system(vehicle)
     linear = linearised(system, speed, guess)
@@ -182,6 +189,13 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     """Eigenvalues at `speeds` (m,) [m/s], each root followed from speed to speed.
 
     A root goes to the one nearest to its linear extrapolation. Raises AnalysisError.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import root_locus
+    >>> locus = root_locus("cooperrider", [60.0, 75.0])
+    >>> locus.speeds
+    array([60., 75.])
     """
     spectra = Spectra(as_system(vehicle))
     speeds = np.asarray(speeds, dtype=float)

@@ -95,6 +95,13 @@ def basin(
     settling     criterion by which a motion hunts or has died out
 
     Raises AnalysisError for what is not a disturbance of the vehicle.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import basin
+    >>> found = basin("cooperrider", 60.0, {"q1": 1e-3}, samples=2, seed=1)
+    >>> found.probability
+    array([0.])
     """
     system = as_system(vehicle)
     values = np.atleast_1d(np.asarray(speeds, dtype=float))

@@ -172,6 +172,15 @@ def stability_map(
     settings   of the diagrams
 
     Raises AnalysisError where there is no Hopf point at any of the starts.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import stability_map
+    >>> found = stability_map(
+    ...     "cooperrider", "speed", "conicity", (0.04, 0.06), points=3, starts=1, folds=False
+    ... )
+    >>> [round(float(speed)) for speed in sorted(found.hopf[0].speed[[0, -1]])]
+    [62, 78]
     """
     if first != "speed":
         raise AnalysisError(f"{first!r}: the first parameter of a map is 'speed'")

@@ -28,6 +28,13 @@ class AirSpring(Element):
 
     surge_stiffness [N/m]: what fast vertical motion meets beyond the static stiffness;
     surge_damping [N s/m]: of the pipe.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import AirSpring
+    >>> spring = AirSpring((1.6e5, 1.6e5, 4.3e5), surge_stiffness=2e5, surge_damping=2e4)
+    >>> float(spring.static_stiffness()[2, 2])
+    430000.0
     """
 
     stiffness: Vector

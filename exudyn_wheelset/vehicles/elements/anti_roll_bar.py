@@ -20,7 +20,14 @@ from exudyn_wheelset.vehicles.elements.protocol import (
 
 @dataclass(frozen=True)
 class AntiRollBar(Element):
-    """Stiffness [N m/rad] and damping [N m s/rad] against roll of the upper on the lower body."""
+    """Stiffness [N m/rad] and damping [N m s/rad] against roll of the upper on the lower body.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import AntiRollBar
+    >>> float(AntiRollBar(940e3).static_stiffness()[3, 3])
+    940000.0
+    """
 
     stiffness: float
     damping: float = 0.0

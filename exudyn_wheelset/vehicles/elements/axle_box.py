@@ -26,6 +26,12 @@ class AxleBox(Element):
 
     spacing [m]: of the two points, half of it to either side of the connection's place. The lower
     end is the wheelset, the upper one the box, a body of its own.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import AxleBox
+    >>> AxleBox(spacing=0.3).spacing
+    0.3
     """
 
     stiffness: Vector = (2.0e8, 2.0e8, 2.0e8)

@@ -27,6 +27,13 @@ class BumpStop(Element):
     table: pairs (displacement [m], force [N]) from (0, 0) on, rising; monotone cubic between
     them, straight on beyond the last, the same for both signs unless both are given. play [m]:
     free way to either side before the table begins.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import BumpStop
+    >>> stop = BumpStop((0, 1, 0), table=[(0, 0), (0.025, 0), (0.03, 600), (0.035, 1760)])
+    >>> stop.direction
+    (0.0, 1.0, 0.0)
     """
 
     direction: Vector

@@ -39,6 +39,12 @@ class CentrePlate(Element):
     radius [m]; friction [-]; stiffness [N/m]: vertical, of the whole face; play [m]: of the rim, to
     either side; stop [N/m]: stiffness of the rim; presliding [m], at 2/3 of the radius for turning;
     damping_time [s]: of the hold.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import CentrePlate
+    >>> CentrePlate(radius=0.178, friction=0.3).play
+    0.003
     """
 
     radius: float

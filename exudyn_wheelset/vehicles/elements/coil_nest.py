@@ -27,6 +27,13 @@ class CoilNest(Element):
 
     stiffness (x, y, z) [N/m], damping (x, y, z) [N s/m] of the coils; wedge: each of the two;
     spacing [m]: of the wedges along the track.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import CoilNest, FrictionWedge
+    >>> wedge = FrictionWedge(angle=32, friction=0.4, column_force=18e3, spring=2e5)
+    >>> float(CoilNest((1.5e6, 1.5e6, 2.5e6), wedge).static_stiffness()[2, 2])
+    2900000.0
     """
 
     stiffness: Vector

@@ -36,6 +36,13 @@ class CoilSpring(Element):
     stiffness (x, y, z) [N/m]: shear, shear and axial, between parallel plates under the load;
     bending, torsion [N m/rad]: between plates that turn against each other about a horizontal
     axis, or about the coil's; damping (x, y, z) [N s/m].
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import CoilSpring
+    >>> coil = CoilSpring((2e6, 2e6, 5e5), bending=10.5e3)
+    >>> float(coil.static_stiffness()[2, 2])
+    500000.0
     """
 
     stiffness: Vector

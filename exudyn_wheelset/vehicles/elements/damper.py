@@ -43,6 +43,13 @@ class MaxwellDamper(Element):
 
     direction (x, y, z); stiffness k [N/m]; damping c [N s/m], both above 0. Warns where they look
     exchanged: c/k is the time [s] in which a force relaxes.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import MaxwellDamper
+    >>> damper = MaxwellDamper((0, 1, 0), stiffness=6e6, damping=32e3)
+    >>> round(1e3 * damper.damping / damper.stiffness, 2)  # relaxation time [ms]
+    5.33
     """
 
     direction: Vector
@@ -90,6 +97,14 @@ class Damper(Element):
     damping [N s/m], or table: pairs (speed [m/s], force [N]) from (0, 0) on, rising; monotone
     cubic between them, straight on beyond, the same for both signs unless both are given.
     series_stiffness [N/m]: of a spring in series; the table's forces must then rise throughout.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Damper
+    >>> blow_off = Damper((0, 1, 0), table=[(0, 0), (0.1, 1.0e4), (0.3, 1.4e4)])
+    >>> linear = Damper((0, 1, 0), damping=32e3)
+    >>> linear.damping
+    32000.0
     """
 
     direction: Vector

@@ -32,6 +32,12 @@ class FrictionDamper(Element):
 
     force F_slip [N]; stiffness k [N/m] of the hold; damping_time [s]: viscous part of the hold, its
     loss factor over the angular frequency. Carries no load that stays.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import FrictionDamper
+    >>> FrictionDamper((0, 0, 1), force=5e3, stiffness=2e7).force
+    5000.0
     """
 
     direction: Vector

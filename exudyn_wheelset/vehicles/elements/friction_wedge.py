@@ -62,6 +62,13 @@ class FrictionWedge(Element):
     along the track; along [N/m]: stiffness of the face between bolster and column, 0 for a wedge
     that holds nothing along the track; radius [m]: of the face, half its width, 0 for one that
     turns freely; ahead: whether the column is ahead of the bolster (else behind).
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import FrictionWedge
+    >>> wedge = FrictionWedge(angle=32, friction=0.4, column_force=18e3)
+    >>> [round(force) for force in wedge.slip_forces()]
+    [4655, 7758]
     """
 
     angle: float

@@ -34,6 +34,12 @@ class LeafSpring(Element):
     """Stiffness and damping (x, y, z) [N/m], [N s/m]; friction [-]: of the leaves, over the load.
 
     presliding [m]: within which the force changes over; damping_time [s]: of the hold.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import LeafSpring
+    >>> LeafSpring((2e6, 1e6, 1.2e6), friction=0.07).friction
+    0.07
     """
 
     stiffness: Vector

@@ -44,6 +44,13 @@ class LinkSuspension(Element):
     stiffness [N/m]: of the leaf spring; length (x, y) [m]: of the pendulums along and across;
     friction (x, y) [-]: slip force of the links over the load; leaf_friction [-]: of the leaves
     over the load; presliding (x, y, z) [m]; damping (x, y, z) [N s/m]; damping_time [s].
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import LinkSuspension
+    >>> links = LinkSuspension(1.2e6, length=(0.40, 0.25), friction=(0.10, 0.06))
+    >>> links.length
+    (0.4, 0.25)
     """
 
     stiffness: float

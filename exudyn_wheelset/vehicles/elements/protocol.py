@@ -114,7 +114,14 @@ class Law:
 
 
 class Element:
-    """Base of elements: both ends at the connection's place, no static stiffness."""
+    """Base of elements: both ends at the connection's place, no static stiffness.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Element, Spring
+    >>> isinstance(Spring((1e6, 1e6, 1e6)), Element)
+    True
+    """
 
     def places(self, at: Sequence[float]) -> tuple[Vector, Vector]:
         """Points (x, y, z) [m] where it meets the lower and the upper body."""

@@ -35,6 +35,12 @@ class SideBearer(Element):
 
     gap [m]: to the body at rest; stiffness [N/m]; friction [-]; force [N]: on the body at rest, for
     one without a gap; presliding [m], damping_time [s]: of the hold.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import SideBearer
+    >>> SideBearer(gap=6.35e-3, stiffness=2e7, friction=0.3).gap
+    0.00635
     """
 
     gap: float

@@ -31,6 +31,13 @@ class Spring(Element):
     (6, 6) matrix; damping: the same forms [N s/m, N m s/rad]. Both ends are at the connection's
     place. Raises WheelsetError for other shapes, negative numbers, matrices that feed energy in;
     warns of a stiffness that looks like kN/mm.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Spring
+    >>> spring = Spring((1.6e6, 4e5, 1.2e6), damping=(15e3, 2e3, 4e3))
+    >>> float(spring.static_stiffness()[1, 1])
+    400000.0
     """
 
     stiffness: Any
@@ -59,6 +66,13 @@ class Bushing(Spring):
 
     Three numbers (x, y, z) [N/m] for one that turns freely, six with those about x, y, z [N m/rad],
     or (6, 6).
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import Bushing
+    >>> bushing = Bushing((8e6, 4e6, 1e6, 1e4, 1e4, 2e4))
+    >>> float(bushing.static_stiffness()[5, 5])
+    20000.0
     """
 
 

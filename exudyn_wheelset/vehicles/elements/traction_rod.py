@@ -27,6 +27,13 @@ class TractionRod(Element):
     """A rod of some length [m] along `direction`, which leads from the lower to the upper body.
 
     stiffness [N/m], damping [N s/m] along its line. The connection's place is its middle.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import TractionRod
+    >>> rod = TractionRod(5e6, damping=25e3, length=0.8)
+    >>> float(rod.static_stiffness()[0, 0])
+    5000000.0
     """
 
     stiffness: float

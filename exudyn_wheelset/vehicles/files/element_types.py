@@ -23,6 +23,18 @@ def register_element(cls: type, name: str | None = None) -> type:
 
     Returns the class, so that it can be a decorator. Raises WheelsetError for a name that another
     class of the package has.
+
+    Examples
+    --------
+    >>> from dataclasses import dataclass
+    >>> from exudyn_wheelset import Spring, register_element
+    >>> @register_element
+    ... @dataclass(frozen=True)
+    ... class SoftSpring(Spring):
+    ...     pass
+    ...
+    >>> SoftSpring.__name__
+    'SoftSpring'
     """
     if not isinstance(cls, type):
         raise WheelsetError(f"{cls!r} is no class: give the class of the element")

@@ -55,6 +55,13 @@ def load_vehicle(path: str | os.PathLike[str], *, check: bool = True) -> Vehicle
     parts that nothing holds, a body that sinks by a metre; `check = false` in the file means the
     same as False here. Profile files are found beside the vehicle file. Raises VehicleError with
     the file, the line or key, the value and the mend.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, load_vehicle, save_vehicle
+    >>> path = save_vehicle(catalogue.vehicle("dtu_car"), "car.toml")
+    >>> load_vehicle(path).name
+    'DTU car'
     """
     file = _file_of(path)
     try:

@@ -36,6 +36,12 @@ def save_vehicle(vehicle: Vehicle, path: str | os.PathLike[str], *, description:
     again before it is written: VehicleError for an element that does not come out equal, as one
     that changes the numbers it is given at each creation, and for a contact or an element that no
     file can name.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import catalogue, save_vehicle
+    >>> save_vehicle(catalogue.vehicle("dtu_car"), "car.toml", description="with my changes").name
+    'car.toml'
     """
     if not isinstance(vehicle, Vehicle):
         raise VehicleError(f"{vehicle!r} is no Vehicle: give one, as VehicleBuilder.finish() does")
