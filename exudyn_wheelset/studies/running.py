@@ -77,10 +77,11 @@ def study(
     """
     if not callable(function):
         raise WheelsetError(f"function = {function!r}: give a function of a case")
-    is_count = isinstance(executor, int) and not isinstance(executor, bool)
-    if (is_count and executor < 1) or not (
-        executor is None or is_count or hasattr(executor, "submit")
-    ):
+    if isinstance(executor, int):
+        known = executor >= 1 and not isinstance(executor, bool)
+    else:
+        known = executor is None or hasattr(executor, "submit")
+    if not known:
         raise WheelsetError(
             f"executor = {executor!r}: give a number of processes from 1, None for one a core, or "
             "a concurrent.futures.Executor"
