@@ -18,13 +18,11 @@ import llvmlite.binding
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils, config, sigutils
-from numba.core.ccallback import CFunc
+from numba.core import cgutils, sigutils
 from numba.extending import intrinsic
 
-from exudyn_wheelset.compilation import keep, source_digest
-
-_SWITCHED_OFF: bool = getattr(config, "DISABLE_JIT", False)
+from exudyn_wheelset.compilation import SWITCHED_OFF, keep, source_digest
+from exudyn_wheelset.whole_code import Callback
 
 
 class Apart:
@@ -46,12 +44,11 @@ class Apart:
 
     def ready(self) -> None:
         """Compile the function, or load what was kept, if that was not done yet."""
-        if self._compiled is None and not _SWITCHED_OFF:
-            made: Any = CFunc(
+        if self._compiled is None and not SWITCHED_OFF:
+            made = Callback(
                 self._function,
                 sigutils.normalize_signature(self._signature),
-                locals={},
-                options={"error_model": "numpy"},
+                {"error_model": "numpy"},
             )
             keep(made, self._function)
             made.compile()
@@ -61,7 +58,7 @@ class Apart:
 
 def _caller(symbol: str, function: Callable[..., None]) -> Any:
     """What compiled code calls the function at the cell of a symbol with."""
-    if _SWITCHED_OFF:
+    if SWITCHED_OFF:
         return lambda arguments: function(*arguments)
 
     @intrinsic

@@ -32,6 +32,7 @@ from numba.core.options import _mapping
 from numba.misc.appdirs import AppDirs
 
 from exudyn_wheelset.locking import FileLock
+from exudyn_wheelset.whole_code import Kernel
 
 PACKAGE = Path(__file__).parent
 # For options `fastmath`: sums and products as of real numbers, in any order and fused; infinities
@@ -39,10 +40,14 @@ PACKAGE = Path(__file__).parent
 AS_REAL_NUMBERS = {"contract", "reassoc", "nsz", "arcp"}
 # Longer than the largest kernel takes to compile on a busy machine [s]; then it is compiled twice.
 PATIENCE = 300.0
+# Variables of the environment by which numba makes other code of the same sources.
+_COMPILER_SETTINGS = ("BOUNDSCHECK", "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "DEBUGINFO_DEFAULT")
 # Option `noalias`: a promise that no two arrays among the arguments share memory, without which a
 # loop that reads one by computed places and writes another is not vectorised. numba makes it for
 # its own loops only, and has no option for it.
 CPUTargetOptions.noalias = _mapping("noalias")
+# By NUMBA_DISABLE_JIT: kernels then are the plain functions.
+SWITCHED_OFF = bool(getattr(config, "DISABLE_JIT", False))
 _log = logging.getLogger(__name__)
 _IMPORT = re.compile(
     rf"^(?:from ({PACKAGE.name}[\w.]*) import (\([^)]*\)|[^\n]*)|import ({PACKAGE.name}[\w.]*))",
@@ -81,6 +86,7 @@ def source_digest(path: Path) -> str:
                 found.add(file)
                 waiting.append(file)
     digest = hashlib.sha256(f"numba {numba.__version__} numpy {version('numpy')}".encode())
+    digest.update(str([getattr(config, name, None) for name in _COMPILER_SETTINGS]).encode())
     for file in sorted(found):
         digest.update(f"\n{file.relative_to(PACKAGE).as_posix()}\n".encode())
         digest.update(_source(file)[0])
@@ -183,10 +189,12 @@ def compiled(function: Any = None, **options: Any) -> Any:
     """
     if function is None:
         return lambda function: compiled(function, **options)
-    dispatcher = numba.njit(error_model="numpy", **options)(function)
-    if dispatcher is not function:
-        keep(dispatcher, function)
-    return dispatcher
+    if SWITCHED_OFF:
+        return function
+    given = {"nopython": True, "boundscheck": None, "error_model": "numpy", **options}
+    kernel = Kernel(function, targetoptions=given)
+    keep(kernel, function)
+    return kernel
 
 
 def keep(compiling: Any, function: Any) -> None:
