@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 from vehicles import SPEED, settings, vehicle
 
 from exudyn_wheelset import Track, Wheelset, contact_geometry
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import RESULT, Axle, Velocity, new_result, side_of
 from exudyn_wheelset.contact.search import find_lobes
 from exudyn_wheelset.contact.tables import contact_tables

@@ -13,7 +13,7 @@ import numpy as np
 
 from exudyn_wheelset import Track, Wheelset, contact_geometry
 from exudyn_wheelset.contact import layout, tables
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 
 SPACINGS = (0.5e-3, 1.0e-3, 1.5e-3, 2.0e-3)

@@ -26,7 +26,7 @@ from exudyn_wheelset import Track, Wheelset, contact_geometry, linear_critical_s
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
 from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact import layout
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.create import create_wheelset

@@ -77,14 +77,19 @@ def _source(path: Path) -> tuple[bytes, tuple[Path, ...]]:
 
 @cache
 def source_digest(path: Path) -> str:
-    """Digest of what compiled code of the file at `path` depends on."""
+    """Digest of what compiled code of the file at `path` depends on.
+
+    Of a module whose name ends with _apart callers know the symbols only (apart.py): not what it
+    imports.
+    """
     found = {path}
     waiting = [path]
     while waiting:
         for file in _source(waiting.pop())[1]:
             if file not in found:
                 found.add(file)
-                waiting.append(file)
+                if not file.stem.endswith("_apart"):
+                    waiting.append(file)
     digest = hashlib.sha256(f"numba {numba.__version__} numpy {version('numpy')}".encode())
     digest.update(str([getattr(config, name, None) for name in _COMPILER_SETTINGS]).encode())
     for file in sorted(found):

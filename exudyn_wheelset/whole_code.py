@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite.binding import Linkage
-from numba.core import compiler
+from numba.core import compiler, types
 from numba.core.ccallback import CFunc, _CFuncCompiler
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags
@@ -150,6 +150,9 @@ class Kernel(CPUDispatcher):
         return self._part
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
+        # One specialisation for all literal numbers.
+        args = tuple(types.unliteral(kind) for kind in args)
+        kws = {name: types.unliteral(kind) for name, kind in kws.items()}
         return self.part.get_call_template(args, kws)
 
     def get_overload(self, sig: Any) -> Any:

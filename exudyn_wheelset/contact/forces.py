@@ -21,8 +21,9 @@ Creepages are v/V in the same axes. Of a wheelset with the yaw psi in the track 
 one is y_w'/V - psi, whatever the slope; V y' taken for a velocity of the rail would add -y'. Only
 rails that move (elastic ones, a shaker's) have velocities, along e_y and e_z.
 
-Patches and their elastic normal forces come from patches.py. With strips, FASTSIM runs over them
-(strip_creep.py); the other laws take the ellipse with their load and second moments.
+Patches and their elastic normal forces come from patches.py, by the energy and by strips from what
+is compiled apart (sides_apart.py). With strips, FASTSIM runs over them (strip_creep.py); the other
+laws take the ellipse with their load and second moments.
 
 The right side is computed as the left side of the mirrored wheelset and mirrored back, so mirror
 symmetry holds to rounding. Records and named tuples: layout.py.
@@ -30,14 +31,12 @@ symmetry holds to rounding. Records and named tuples: layout.py.
 
 import math
 
-from numba import float64, int64, void
-
 from exudyn_wheelset.addresses import numbers_at
-from exudyn_wheelset.apart import Apart
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
 from exudyn_wheelset.contact.friction import patch_friction
 from exudyn_wheelset.contact.layout import (
+    ENERGY,
     PARAMETER_COUNT,
     PARAMETERS,
     RAIL_MOTION,
@@ -52,12 +51,15 @@ from exudyn_wheelset.contact.layout import (
     side_of,
 )
 from exudyn_wheelset.contact.patches import side_patches
-from exudyn_wheelset.contact.strip_creep import strip_traction
+from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_TRACTION
 from exudyn_wheelset.creep import CREEP_LAWS, creep_kernel
 
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1
 _FASTSIM = CREEP_LAWS["fastsim"].number
+_energy_side = ENERGY_SIDE.call
+_strip_side = STRIP_SIDE.call
+_strip_traction = STRIP_TRACTION.call
 
 
 @compiled(inline="always")
@@ -103,6 +105,23 @@ def _patch_creep(k, patches, shares, count, parameters):
         fy += rest * gy
         mz += rest * gz
     return fx, fy, mz
+
+
+@compiled(inline="always")
+def _side(table, hand, axle, parameters, options, result, out):
+    """Fill the patches of one side and their count."""
+    if options.normal == ENERGY:
+        _energy_side((
+            table.ctypes.data, table.size, hand, parameters.ctypes.data, result.ctypes.data,
+            axle.y, axle.z, axle.lx, axle.ly, axle.lz,
+        ))  # fmt: skip
+    elif options.normal == STRIPS:
+        _strip_side((
+            table.ctypes.data, table.size, hand, parameters.ctypes.data, result.ctypes.data,
+            axle.y, axle.z, axle.lx, axle.ly, axle.lz,
+        ))  # fmt: skip
+    else:
+        out.count[hand] = side_patches(table, hand, axle, options, out.work, out.patches[hand])
 
 
 @compiled(inline="always")
@@ -160,8 +179,8 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             vx, vy, vz = _into(axes, vx, vy, vz)
             wx, wy, wz = _into(axes, wx, wy, wz)
         mirrored = Axle(mirror * y, z, mirror * lx, ly, mirror * lz)
-        count = side_patches(table, hand, mirrored, options, out.work, patches)
-        out.count[hand] = count
+        _side(table, hand, mirrored, parameters, options, result, out)
+        count = out.count[hand]
         slip = Slip(
             vx, mirror * vy - mirror * rail_motion[4 + 2 * hand], vz - rail_motion[5 + 2 * hand],
             mirror * wx, wy, mirror * wz, max(abs(vx), LEAST_SPEED),
@@ -182,7 +201,11 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]
             ny, nz = patch.normal[1], patch.normal[2]
             if over_strips:
-                creep = strip_traction(out.work.strips, shares[k], patch, slip, options)
+                fx, gy, gz, mx, my, mz = _strip_traction((
+                    parameters.ctypes.data, result.ctypes.data, hand, k, slip.x, slip.y, slip.z,
+                    slip.about_x, slip.about_y, slip.about_z, slip.speed,
+                ))  # fmt: skip
+                creep = Traction(fx, gy, gz, mx, my, mz)
             else:
                 fx, fy, mz = _patch_creep(k, patches, shares, count, options)
                 creep = Traction(fx, fy, 0.0, 0.0, 0.0, mz)
@@ -226,34 +249,12 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
     out.moment[2] = moment_z
 
 
-def _forces_at(
+def forces_at(
     table, size, rail_motion, parameters, result, y, z, lx, ly, lz, vx, vy, vz, wx, wy, wz
 ):  # fmt: skip
+    """As `wheelset_forces` of forces_apart.py, arrays by their addresses."""
     _wheelset_forces(
         numbers_at(table, size), Axle(y, z, lx, ly, lz), Velocity(vx, vy, vz, wx, wy, wz),
         numbers_at(rail_motion, RAIL_MOTION), numbers_at(parameters, PARAMETER_COUNT),
         numbers_at(result, RESULT_SIZE),
     )  # fmt: skip
-
-
-FORCES = Apart(_forces_at, void(*5 * (int64,), *11 * (float64,)))
-_call = FORCES.call
-
-
-@compiled
-def wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
-    """Fill `result` with the wrench on the wheelset and its patches; return nothing.
-
-    table: contact_tables(). axle (Axle): y, z [m] of the centre, z from `radius` above the rail
-    tops, and the axle's unit vector; velocity (Velocity) of the centre over the ground and
-    angular, track frame. rail_motion (12): lateral and vertical shift of the left and the right
-    rail [m], their velocities if they move [m/s], their slopes [-]. parameters:
-    contact_parameters(); result: new_result().
-    Patches come back in the axes that follow their rail, on the right side too with y to the
-    left; positions and angles count towards the field side.
-    """
-    _call((
-        table.ctypes.data, table.size, rail_motion.ctypes.data, parameters.ctypes.data,
-        result.ctypes.data, axle.y, axle.z, axle.lx, axle.ly, axle.lz, velocity.x, velocity.y,
-        velocity.z, velocity.about_x, velocity.about_y, velocity.about_z,
-    ))  # fmt: skip

@@ -27,19 +27,15 @@ from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
 from exudyn_wheelset.contact.layout import (
-    ENERGY,
     HERTZ_LOCAL,
-    STRIPS,
     VIRTUAL_PENETRATION,
     Ellipse,
     Material,
     Zone,
     side_of,
 )
-from exudyn_wheelset.contact.load_patches import load_patches
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.search import VIRTUAL, find_lobes, zone_moments
-from exudyn_wheelset.contact.strip_patches import strip_patches
 from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_force, zone_integrals
 
 # Sinking in each other's fields converges by a factor of some 0.1 a sweep.
@@ -225,16 +221,15 @@ def _field(lobes, shares, k, j):
 
 @compiled(fastmath=AS_REAL_NUMBERS)
 def side_patches(table, hand, axle, parameters, work, patches):
-    """Normal contact of one side: fills patches with geometry and elastic force; their count."""
+    """Normal contact of one side by Hertz's theory or virtual penetration.
+
+    Fills patches with geometry and elastic force; returns their count.
+    """
     side = side_of(table, hand)
-    if parameters.normal == STRIPS:
-        return strip_patches(table, side, axle, parameters, work, patches)
     lobes = work.lobes
     shares = work.shares
     material = Material(parameters.shear_modulus, parameters.poisson)
     count = find_lobes(table, side, axle, work)
-    if parameters.normal == ENERGY:
-        return load_patches(table, side, count, axle, material, work, patches)
     _fill_own_zones(table, side, lobes, count, axle)
     normal = int(parameters.normal)
     virtual = normal == VIRTUAL_PENETRATION

@@ -27,11 +27,13 @@ from exudyn_wheelset.contact.descriptions import (
     Wheelset,
     check_contact_names,
 )
-from exudyn_wheelset.contact.forces import FORCES, wheelset_forces
+from exudyn_wheelset.contact.forces_apart import FORCES, wheelset_forces
 from exudyn_wheelset.contact.friction import frictions
 from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
+from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_TRACTION
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
+from exudyn_wheelset.creep.exact_apart import EXACT_LAW
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.results.brief import brief
 
@@ -67,8 +69,6 @@ def contact_parameters(
     Raises WheelsetError for unknown names and impossible values, and where a contact and its
     numbers are both given.
     """
-    # Whoever runs the kernels has come by here for their parameters.
-    FORCES.ready()
     chosen = one_contact(
         contact,
         normal=normal,
@@ -85,11 +85,24 @@ def contact_parameters(
         record[name] = getattr(chosen, name)
     record["friction"] = frictions(chosen)
     record["friction_ratio"], record["friction_decay"] = chosen.falling_friction
+    _get_ready(chosen)
     record["law"] = creep_law(chosen.creep).number
     record["normal"] = NORMAL_MODELS[chosen.normal]
     values = creep_parameters(chosen.creep, **dict(chosen.law_parameters))
     record["law_parameters"][: len(values)] = values
     return parameters
+
+
+def _get_ready(contact: Contact) -> None:
+    """Compile what a contact needs: whoever runs the kernels comes by for their parameters."""
+    FORCES.ready()
+    if contact.normal == "energy":
+        ENERGY_SIDE.ready()
+    if contact.normal == "strips":
+        STRIP_SIDE.ready()
+        STRIP_TRACTION.ready()
+    if contact.creep == "exact":
+        EXACT_LAW.ready()
 
 
 def one_contact(contact: Contact | None, **given: Any) -> Contact:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.coupling.wheel_forces import wheel_force
 from exudyn_wheelset.errors import WheelsetError
 

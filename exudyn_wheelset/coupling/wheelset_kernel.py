@@ -20,7 +20,7 @@ import numpy as np
 from exudyn_wheelset.addresses import integers_at, numbers_at
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Velocity, side_of
 from exudyn_wheelset.coupling.elastic_rails import elastic_forces
 from exudyn_wheelset.coupling.track_kernel import (

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.exact import LAW as EXACT
-from exudyn_wheelset.creep.exact import exact
+from exudyn_wheelset.creep.exact_apart import exact_law
 from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
 from exudyn_wheelset.creep.exact_table import exact_table
 from exudyn_wheelset.creep.fastsim import fastsim
@@ -85,7 +85,7 @@ def creep_kernel(
     if law_number == _EXACT_TABLE:
         return exact_table(*state)
     if law_number == _EXACT:
-        return exact(*state)
+        return exact_law(*state)
     if law_number == _POLACH_KALKER:
         return polach_kalker(*state)
     if law_number == OWN_LAW:

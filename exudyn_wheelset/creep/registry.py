@@ -23,6 +23,7 @@ from exudyn_wheelset.creep.arguments import (
     unknown,
 )
 from exudyn_wheelset.creep.exact import LAW as EXACT
+from exudyn_wheelset.creep.exact_apart import EXACT_LAW
 from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.kernel import creep_force_rows
@@ -246,6 +247,8 @@ def creep_force(
     if description.function is not None:
         address = np.full((len(laws_own), 1), address_of(description.function), dtype=float)
         laws_own = np.hstack([address, laws_own])
+    if description.number == EXACT.number:
+        EXACT_LAW.ready()
     forces = creep_force_rows(description.number, states, laws_own)
     if shape == ():
         return float(forces[0, 0]), float(forces[0, 1]), float(forces[0, 2])

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Velocity, new_result
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
