@@ -24,7 +24,6 @@ from numba import njit
 
 from exudyn_wheelset import Track, Wheelset, contact_geometry, linear_critical_speed
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
-from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact import layout
 from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.tables import contact_tables

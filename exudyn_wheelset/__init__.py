@@ -104,6 +104,7 @@ _PLACES = {
     "add_frame_loads": "coupling.moving_frame",
     "TrackFrame": "coupling.track_frame",
     "static_equilibrium": "vehicles.statics",
+    "warm_up": "front.warming",
     "wheelsets_of": "coupling.registration",
     "with_free_lengths": "vehicles.statics",
 }

@@ -19,7 +19,6 @@ from __future__ import annotations
 import hashlib
 import logging
 import re
-import time
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -143,12 +142,13 @@ class _Cache(caching.FunctionCache):
     def __init__(self, function: Any) -> None:
         super().__init__(function)
         place = Path(self._cache_path, f"{self._impl.filename_base}.lock")
-        self._lock = FileLock(place, PATIENCE)
+        self._lock = FileLock(place)
+        self._name = f"{function.__module__}.{function.__name__}".removeprefix(f"{PACKAGE.name}.")
         self._depth = 0
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         kept = super().load_overload(sig, target_context)
-        if kept is None and self._depth == 0 and self._lock.acquire():
+        if kept is None and self._depth == 0 and self._hold():
             # Another process may have kept it meanwhile.
             kept = super().load_overload(sig, target_context)
             if kept is not None:
@@ -157,8 +157,18 @@ class _Cache(caching.FunctionCache):
             self._depth += 1
             if not _Cache._said:
                 _Cache._said = True
-                _log.warning("compiling the kernels, once: up to a minute")
+                _log.warning("compiling kernels, once (kept in %s)", Path(self._cache_path).parent)
+            _log.info("compiling %s", self._name)
         return kept
+
+    def _hold(self) -> bool:
+        """Hold the lock, after whoever has it."""
+        self._lock.patience = 0.0
+        if self._lock.acquire():
+            return True
+        _log.warning("waiting for another process that compiles %s", self._name)
+        self._lock.patience = PATIENCE
+        return self._lock.acquire()
 
     def save_overload(self, sig: Any, data: Any) -> None:
         super().save_overload(sig, data)
@@ -190,12 +200,15 @@ event.register("numba:compile", _Failures())
 def compiled(function: Any = None, **options: Any) -> Any:
     """Compile a function of this package with numba, division by zero as in numpy, and keep it.
 
-    Used bare or with options of numba.njit, such as inline="always".
+    Used bare or with options of numba.njit; inline="always" is left to LLVM, which is spared the
+    typing of a copy at every call, and with it the function has its own fastmath, not its caller's.
     """
     if function is None:
         return lambda function: compiled(function, **options)
     if SWITCHED_OFF:
         return function
+    if options.pop("inline", "never") == "always":
+        options["forceinline"] = True
     given = {"nopython": True, "boundscheck": None, "error_model": "numpy", **options}
     kernel = Kernel(function, targetoptions=given)
     keep(kernel, function)
@@ -208,20 +221,3 @@ def keep(compiling: Any, function: Any) -> None:
         compiling._cache = _Cache(function)
     except RuntimeError:
         _log.info("no folder to keep compiled kernels in: they are compiled at every start")
-
-
-def warm_up() -> float:
-    """Load or compile the kernels of a wheelset on its rails; return the seconds it took.
-
-    Compiling happens once after installation; loading takes a few tenths of a second.
-    """
-    start = time.perf_counter()
-    from exudyn_wheelset.contact.descriptions import Track, Wheelset
-    from exudyn_wheelset.contact.wheelset_contact import contact_forces
-    from exudyn_wheelset.geometry.rigid import contact_geometry
-
-    wheelset = Wheelset(mass=1e3, inertia=(500, 100, 500), radius=0.46, wheel="S1002")
-    track = Track(rail="UIC60")
-    height = contact_geometry(wheelset, track, [1e-3]).z[0] - 5e-5
-    contact_forces(wheelset, track, (0, 1e-3, height, 0, 0, 0), (20, 0, 0, 0, 43, 0))
-    return time.perf_counter() - start

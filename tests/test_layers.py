@@ -9,7 +9,17 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).parents[1] / "exudyn_wheelset"
 LAYERS = (
-    ("errors", "arrays", "constants", "checking", "locking", "compilation", "addresses", "apart"),
+    (
+        "errors",
+        "arrays",
+        "constants",
+        "checking",
+        "locking",
+        "compilation",
+        "addresses",
+        "apart",
+        "whole_code",
+    ),
     ("track",),
     ("creep", "profiles", "results", "studies"),
     ("contact",),
@@ -21,8 +31,7 @@ LAYERS = (
     ("front",),
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}
-# Loads what it is asked to compile, when it is called.
-EXCEPTIONS = {"compilation.py": {"contact", "geometry"}}
+EXCEPTIONS: dict[str, set[str]] = {}
 
 
 def imported(path: Path) -> set[str]:

@@ -4,11 +4,11 @@ v = v_C + omega x (P - C) minus the rail's; creep_x = v_x/V, creep_y = v.t/V wit
 spin = omega.n/V (Petersen and Hoffmann 2003; no small angles). Track frame, left side.
 """
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.layout import Creepage
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def slip_velocity(slip, x, y, z):
     """Velocity [m/s] over the rail of the wheel's particle at (x, y, z) [m] from the centre."""
     return (
@@ -18,7 +18,7 @@ def slip_velocity(slip, x, y, z):
     )
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def creepage_at(slip, x, y, z, normal_y, normal_z):
     """Creepage of the wheel's particle at (x, y, z) [m] from the centre, in a normal's triad."""
     slip_x, slip_y, slip_z = slip_velocity(slip, x, y, z)

@@ -5,10 +5,10 @@ and z [m] as a0 + a1 u + a2 u^2 + a3 u^3 with u [m] from the segment's start. Be
 curve goes on straight, so that no pose gives anything but finite numbers.
 """
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def curve_point(data, curve, arc):
     """Return (y, y', y'', z, z', z'') [m, -, 1/m] of the curve at arc length `arc` [m]."""
     index = int(min(max(arc * curve.per_spacing, 0.0), curve.last))

@@ -61,7 +61,7 @@ def fill(load, modulus):
     load.ratio_by_tt = alpha2 - beta2
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def overlap(one, two, offset):
     """Convolution C of two parabolas of half widths `one` and `two` at an offset R >= 0.
 

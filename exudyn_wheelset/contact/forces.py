@@ -62,7 +62,7 @@ _strip_side = STRIP_SIDE.call
 _strip_traction = STRIP_TRACTION.call
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _law_force(creepage, ellipse, damping, friction, parameters):
     """Creep force (F_x, F_y, M_z) of the chosen law on an ELLIPSE under a damped normal force."""
     return creep_kernel(
@@ -72,7 +72,7 @@ def _law_force(creepage, ellipse, damping, friction, parameters):
     )  # fmt: skip
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _patch_creep(k, patches, shares, count, parameters):
     """Creep force of patch k of a side."""
     fx = 0.0
@@ -107,7 +107,7 @@ def _patch_creep(k, patches, shares, count, parameters):
     return fx, fy, mz
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _side(table, hand, axle, parameters, options, result, out):
     """Fill the patches of one side and their count."""
     if options.normal == ENERGY:
@@ -124,7 +124,7 @@ def _side(table, hand, axle, parameters, options, result, out):
         out.count[hand] = side_patches(table, hand, axle, options, out.work, out.patches[hand])
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _axes_along(slope_y, slope_z):
     """Axes e_x, e_y, e_z (nine numbers) that follow a rail of these slopes [-]."""
     across = 1.0 / math.sqrt(1.0 + slope_y * slope_y)
@@ -134,7 +134,7 @@ def _axes_along(slope_y, slope_z):
     return xx, xy, xz, yx, yy, 0.0, -xz * yy, xz * yx, xx * yy - xy * yx
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _into(a, x, y, z):
     """Components in axes a (nine numbers)."""
     return (
@@ -144,7 +144,7 @@ def _into(a, x, y, z):
     )
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _out_of(a, x, y, z):
     """Components in the track frame of what is given in axes a."""
     return (

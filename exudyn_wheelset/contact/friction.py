@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 
 TREAD, FLANGE, TOP = 0, 1, 2
 # Angles [rad] between which the friction goes over from top to tread, and from tread to flange.
@@ -31,14 +31,14 @@ TOP_TO, TREAD_FROM = 0.1, 0.2
 TREAD_TO, FLANGE_FROM = 0.3, 0.5
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _ramp(x, low, high):
     """From 0 at low to 1 at high without a step in the slope."""
     t = min(max((x - low) / (high - low), 0.0), 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def patch_friction(parameters, hand, angle, slip_velocity):
     """Coefficient of a patch of contact angle [rad] that slips [m/s]; hand 0 is left, 1 right."""
     of_rail = parameters.friction[hand]

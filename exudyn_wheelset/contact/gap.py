@@ -36,7 +36,7 @@ from exudyn_wheelset.contact.layout import (
 )
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def gap_on_normal(table, side, place, arc, axle):
     """Penetration on the rail's normal at `place`: (p, dp/ds, d2p/ds2, arc).
 
@@ -107,7 +107,7 @@ def line_of_force(table, side, place, arc, axle):
     return fy, fz, py * fz - pz * fy, -px * fz, px * fy
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _curve_rows(table, curve):
     """Coefficients of a curve (segments, 8)."""
     start = curve.offset

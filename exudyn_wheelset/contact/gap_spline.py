@@ -156,7 +156,7 @@ def _primitives(depths, coefficients, first, second, third):
         one += more
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _cell(coefficients, k):
     """Polynomial from node k on to the next."""
     c0 = coefficients[k - 1]
@@ -171,7 +171,7 @@ def _cell(coefficients, k):
     )
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _cell_at(load, at):
     """Number of the cell in which a place is, of the range's first or last one beyond its ends."""
     if not at > load.low:
@@ -179,7 +179,7 @@ def _cell_at(load, at):
     return int(at) if at < load.high else load.high
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def spline_depth(gap, load, at):
     """p [m] at a place."""
     k = _cell_at(load, at)
@@ -188,7 +188,7 @@ def spline_depth(gap, load, at):
     return a0 + u * (a1 + u * (a2 + u * a3))
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def primitives_at(gap, load, at):
     """p and its three primitives in units of h, at a place near the load's (or lobe's) range."""
     k = _cell_at(load, at)
@@ -231,7 +231,7 @@ def average(gap, load, start, per):
     load.spread_spread = 1.5 * (s0 - 5.0 * d1 + 12.0 * (s2 - d3))
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _second_third(u):
     """Second and third primitive of the cubic B-spline at u."""
     if u >= 2.0:
@@ -257,7 +257,7 @@ def _second_third(u):
     return second / 120.0, third / 720.0
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _end_weight(j, low, high, v):
     """Weight of the coefficient j near an end of the load."""
     if high - j <= -2.0 or low - j >= 2.0:

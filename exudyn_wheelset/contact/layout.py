@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 
 MOST_LOBES = 4
@@ -302,13 +302,13 @@ class Zone(NamedTuple):
     normal_z: float
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def side_of(table, hand):
     """Return the SIDE record of a wheelset's table: hand 0 is left, 1 right."""
     return table[:HEADER].view(SIDE)[hand]
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def block_row(table, block, row):
     """Return one row of a block of the table."""
     start = block.offset + row * block.count

@@ -8,7 +8,7 @@ Frame: track frame, left side; lengths in metres. Records LOAD, LOBE, WORK: layo
 
 import math
 
-from exudyn_wheelset.compilation import compiled
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.ellipsoids import field, fill
 from exudyn_wheelset.contact.energy import MISFIT, look_along, stationary
 from exudyn_wheelset.contact.gap import gap_on_normal
@@ -178,7 +178,7 @@ def _begin_second(table, side, lobe, loads, k, count, misfit, other, modulus, wo
     two.lobe = one.lobe
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _ramp(x):
     """From 0 to 1 without a step in the slope, and its integral from 0."""
     square = x * x

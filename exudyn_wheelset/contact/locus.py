@@ -21,7 +21,7 @@ from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.curve import curve_point
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
     """Return (x, y, z, normal_y, normal_z) of the contact locus, the normal into the rail."""
     q = 1.0 - lx * lx
@@ -39,7 +39,7 @@ def locus_point(w, r, t, cx, cy, cz, lx, ly, lz):
     )
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def wheel_section(table, side, arc, axle):
     """Contact-locus point at the wheel's arc length in the y-z plane: (y, z, ny, nz, curvature).
 
@@ -84,7 +84,7 @@ def wheel_point(table, side, arc, axle):
     return x, py, pz, ny, nz, arm, y, y1 * z2 - z1 * y2
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def rail_foot(table, side, py, pz, arc):
     """Foot of the perpendicular from (py, pz) on the rail, from a near guess of its arc length.
 

@@ -42,7 +42,7 @@ from exudyn_wheelset.contact.virtual_penetration import virtual_penetration_forc
 _SWEEPS = 12
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _mean_half_curvature(total, depth):
     """B [1/m] of the parabola with the same integral over its zone."""
     extent = VIRTUAL * depth
@@ -83,7 +83,7 @@ def _merged_integrals(table, side, lobe, other, deepest, origin, along, axle):
     return first + more, second + further
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _unit(y, z):
     length = math.sqrt(y * y + z * z)
     return y / length, z / length
@@ -98,7 +98,7 @@ def _zone_moments(table, side, lobe, deepest, axle):
     return zone_moments(table, side, lobe, level, axle)
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _keep(record, zone):
     record.total = zone.total
     record.arc = zone.arc
@@ -139,7 +139,7 @@ def _fill_own_zones(table, side, lobes, count, axle):
             lobe.merged_depth = deepest
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _less_separated_neighbour(lobes, k):
     """Separation of lobe k from the neighbour that is less separated from it, and which it is."""
     separation = lobes[k].separation
@@ -150,7 +150,7 @@ def _less_separated_neighbour(lobes, k):
     return separation, other
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _set_ellipse(record, ellipse):
     record.force = ellipse.force
     record.a = ellipse.a
@@ -208,7 +208,7 @@ def _sink_in_each_other(lobes, shares, count, material):
         own.b *= root
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _field(lobes, shares, k, j):
     """Load [N] of lobe j as it is sunk now, over its distance from lobe k [m]."""
     if lobes[k].own.total <= 0.0 or lobes[j].own.total <= 0.0:

@@ -49,7 +49,7 @@ GAUSS_PLACES = 0.5 * (1.0 + _POINTS)
 GAUSS_WEIGHTS = 0.5 * _WEIGHTS
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def probe(table, side, arc, foot, axle):
     """Penetration at the wheel's arc length: (penetration, sine, 2 B, foot).
 
@@ -61,7 +61,7 @@ def probe(table, side, arc, foot, axle):
     return -height, ty * ny + tz * nz, wheel_curvature - rail_curvature, foot
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _foot_below(table, side, py):
     """Arc length of the rail point below a lateral position, from the grid."""
     py = min(max(py, side.rail_low), side.rail_high)
@@ -237,7 +237,7 @@ def _note_candidate(candidates, found, node, before, depth, after, valley):
     return found + 1
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _vertex(left, middle, right, candidate):
     """Vertex of the parabola through the depths at three nodes."""
     fall = candidate.depth - candidate.before
@@ -329,7 +329,7 @@ def zone_end(table, side, lobe, limit, level, axle):
     return arc + direction * distance
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _root_step(table, side, lobe, offset, root, axle):
     """Newton's step towards the place where the lobe has fallen by root^2, from arc + offset.
 

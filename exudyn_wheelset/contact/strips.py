@@ -86,7 +86,7 @@ def k_minus_e(u_squared):
     return k - e - (k_log - e_log) * math.log(n)
 
 
-@compiled(inline="always")
+@compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _integral_of_log(x):
     return x * math.log(abs(x)) - x if x != 0.0 else 0.0
 

@@ -17,10 +17,10 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
-from exudyn_wheelset.compilation import warm_up
 from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.front.settings import load_settings
+from exudyn_wheelset.front.warming import warm_up
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.results.files import plain

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from exudyn_wheelset.compilation import warm_up
+from exudyn_wheelset.front.warming import warm_up
 
 ABOUT = (
     "Kernels are compiled at their first use and kept in the user's cache folder\n"
@@ -21,7 +21,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def compute(arguments: argparse.Namespace) -> dict[str, Any]:
     """Seconds that it took."""
-    return {"seconds": warm_up()}
+    return {"seconds": warm_up(everything=True, progress=True)}
 
 
 def show(numbers: dict[str, Any]) -> None:
