@@ -29,6 +29,7 @@ from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.create import create_wheelset
+from exudyn_wheelset.front.warming import warm_up
 
 
 @njit(cache=True)

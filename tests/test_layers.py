@@ -31,7 +31,6 @@ LAYERS = (
     ("front",),
 )
 HEIGHT = {name: height for height, row in enumerate(LAYERS) for name in row}
-EXCEPTIONS: dict[str, set[str]] = {}
 
 
 def imported(path: Path) -> set[str]:
@@ -57,7 +56,7 @@ def test_every_file_knows_only_the_layers_below():
         layer = place.parts[0].removesuffix(".py")
         if layer == "__init__":
             continue
-        for name in imported(path) - EXCEPTIONS.get(place.as_posix(), set()):
+        for name in imported(path):
             if HEIGHT[name] > HEIGHT[layer]:
                 wrong.append(f"{place} imports {name}, which stands above it")
     assert wrong == []

@@ -27,7 +27,7 @@ import numpy as np
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.locus import locus_point
-from exudyn_wheelset.creep import creep_kernel
+from exudyn_wheelset.creep.kernel_apart import creep_kernel
 
 (
     MASS,

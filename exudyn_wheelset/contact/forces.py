@@ -52,11 +52,12 @@ from exudyn_wheelset.contact.layout import (
 )
 from exudyn_wheelset.contact.patches import side_patches
 from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_TRACTION
-from exudyn_wheelset.creep import CREEP_LAWS, creep_kernel
+from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
+from exudyn_wheelset.creep.kernel_apart import creep_kernel
 
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1
-_FASTSIM = CREEP_LAWS["fastsim"].number
+_FASTSIM = FASTSIM.number
 _energy_side = ENERGY_SIDE.call
 _strip_side = STRIP_SIDE.call
 _strip_traction = STRIP_TRACTION.call

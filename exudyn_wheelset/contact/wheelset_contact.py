@@ -34,6 +34,7 @@ from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_T
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.creep.exact_apart import EXACT_LAW
+from exudyn_wheelset.creep.kernel_apart import CREEP
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.results.brief import brief
 
@@ -96,6 +97,7 @@ def contact_parameters(
 def _get_ready(contact: Contact) -> None:
     """Compile what a contact needs: whoever runs the kernels comes by for their parameters."""
     FORCES.ready()
+    CREEP.ready()
     if contact.normal == "energy":
         ENERGY_SIDE.ready()
     if contact.normal == "strips":

@@ -4,7 +4,7 @@ One law a module, all with the same kernel signature; `registry` knows them by n
 """
 
 from exudyn_wheelset.creep.kalker import kalker_coefficients
-from exudyn_wheelset.creep.kernel import creep_kernel
+from exudyn_wheelset.creep.kernel_apart import creep_kernel
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.registry import (
     CREEP_LAWS,

@@ -1,4 +1,4 @@
-"""One compiled entry for all creep laws.
+"""One compiled entry for all creep laws; compiled code calls it by kernel_apart.py.
 
 A chain over whole numbers, because compiled code that calls functions by reference cannot be kept
 on disk; a law of one's own is called by its address (exudyn_wheelset.creep.own).
@@ -6,9 +6,9 @@ on disk; a law of one's own is called by its address (exudyn_wheelset.creep.own)
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import NDArray
 
+from exudyn_wheelset.addresses import numbers_at
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.exact import LAW as EXACT
 from exudyn_wheelset.creep.exact_apart import exact_law
@@ -40,7 +40,7 @@ _EXACT_TABLE = EXACT_TABLE.number
 
 
 @compiled
-def creep_kernel(
+def law_force(
     law_number: int,
     creep_x: float,
     creep_y: float,
@@ -53,13 +53,7 @@ def creep_kernel(
     poisson: float,
     parameters: NDArray,
 ) -> tuple[float, float, float]:
-    """Give (F_x, F_y, M_z) on the wheel by the law of that number, for compiled callers.
-
-    Creepages [-] and spin [1/m] as (wheel - rail)/V; semi-axes a along rolling and b lateral [m];
-    normal_force [N]; shear_modulus [Pa]; parameters: float64 array from `creep_parameters`.
-    Forces [N] and moment about the contact normal [N m]. Zero without load, friction or patch;
-    finite for every finite input. Nothing is checked here.
-    """
+    """As `creep_kernel` of kernel_apart.py."""
     state = (
         creep_x,
         creep_y,
@@ -93,27 +87,13 @@ def creep_kernel(
     return fastsim(*state)
 
 
-@compiled
-def creep_force_rows(law_number: int, states: NDArray, parameters: NDArray) -> NDArray:
-    """Run `creep_kernel` over states (n, 9) and parameters (n, p) or (1, p); gives (n, 3)."""
-    forces = np.empty((states.shape[0], 3))
-    last = parameters.shape[0] - 1
-    for i in range(states.shape[0]):
-        row = states[i]
-        force_x, force_y, moment = creep_kernel(
-            law_number,
-            row[0],
-            row[1],
-            row[2],
-            row[3],
-            row[4],
-            row[5],
-            row[6],
-            row[7],
-            row[8],
-            parameters[min(i, last)],
-        )
-        forces[i, 0] = force_x
-        forces[i, 1] = force_y
-        forces[i, 2] = moment
-    return forces
+def force_at(
+    law_number, creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson,
+    parameters, count, forces,
+):  # fmt: skip
+    """Write (F_x, F_y, M_z) to an address; parameters: address of `count` numbers."""
+    given = numbers_at(forces, 3)
+    given[0], given[1], given[2] = law_force(
+        law_number, creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson,
+        numbers_at(parameters, count),
+    )  # fmt: skip

@@ -1,7 +1,7 @@
 """The creep laws by name, and the public `creep_force`.
 
 A law is added to the package by a module with a kernel of the common signature and its `LAW`, one
-entry in `CREEP_LAWS` and one branch in `creep_kernel`; outside the package by `register_creep_law`,
+entry in `CREEP_LAWS` and one branch in `law_force`; outside the package by `register_creep_law`,
 or by giving the compiled function where a name is asked for.
 """
 
@@ -26,7 +26,7 @@ from exudyn_wheelset.creep.exact import LAW as EXACT
 from exudyn_wheelset.creep.exact_apart import EXACT_LAW
 from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
-from exudyn_wheelset.creep.kernel import creep_force_rows
+from exudyn_wheelset.creep.kernel_apart import CREEP, creep_force_rows
 from exudyn_wheelset.creep.law import CreepLaw, CreepParameter
 from exudyn_wheelset.creep.linear import LAW as LINEAR
 from exudyn_wheelset.creep.own import OWN_LAW, address_of, law_at
@@ -247,6 +247,7 @@ def creep_force(
     if description.function is not None:
         address = np.full((len(laws_own), 1), address_of(description.function), dtype=float)
         laws_own = np.hstack([address, laws_own])
+    CREEP.ready()
     if description.number == EXACT.number:
         EXACT_LAW.ready()
     forces = creep_force_rows(description.number, states, laws_own)
