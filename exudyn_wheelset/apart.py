@@ -47,7 +47,7 @@ class Apart:
             None, *(ctypes.c_int64 if kind == "i" else ctypes.c_double for kind in kinds)
         )
         self._first = self._in_c(self._get_ready_and_call)
-        self._cell[0] = ctypes.cast(self._first, ctypes.c_void_p).value
+        self._cell[0] = ctypes.cast(self._first, ctypes.c_void_p).value or 0
         digest = hashlib.sha256(kinds.encode()).hexdigest()
         symbol = f"{function.__module__}.{function.__name__}.{digest[:16]}"
         llvmlite.binding.add_symbol(symbol, self._cell.ctypes.data)
@@ -63,7 +63,7 @@ class Apart:
             )
             keep(made, self._function)
             made.compile()
-            self._cell[0] = made.address
+            self._cell[0] = int(made.address)
             self._compiled = made
 
     def _get_ready_and_call(self, *arguments: float) -> None:

@@ -12,11 +12,9 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite.binding import Linkage
-from numba.core import compiler, types
-from numba.core.ccallback import CFunc, _CFuncCompiler
+from numba.core import ccallback, compiler, dispatcher, types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags
-from numba.core.dispatcher import _FunctionCompiler
 from numba.core.registry import CPUDispatcher
 
 
@@ -68,6 +66,11 @@ class Library(JITCodeLibrary):
         super().finalize()
 
 
+_FunctionCompiler: Any = dispatcher._FunctionCompiler  # type: ignore[attr-defined]
+_CallbackCompiler: Any = ccallback._CFuncCompiler  # type: ignore[attr-defined]
+_NumbaCallback: Any = ccallback.CFunc
+
+
 class _Whole(_FunctionCompiler):
     """As numba's, but into a `Library`."""
 
@@ -91,11 +94,11 @@ class _Whole(_FunctionCompiler):
         )
 
 
-class _WholeCallback(_Whole, _CFuncCompiler):
+class _WholeCallback(_Whole, _CallbackCompiler):
     pass
 
 
-class Callback(CFunc):
+class Callback(_NumbaCallback):
     """A function as C calls it."""
 
     def __init__(self, function: Any, signature: Any, options: Any) -> None:
@@ -141,10 +144,10 @@ class Kernel(CPUDispatcher):
         self._compiler = _Whole(
             py_func, self.targetdescr, self.targetoptions, self.locals, pipeline_class
         )
-        self._part: Part | None = None
+        self._part: Any = None
 
     @property
-    def part(self) -> Part:
+    def part(self) -> Any:
         if self._part is None:
             self._part = Part(self.py_func, self.targetoptions)
         return self._part
