@@ -42,6 +42,7 @@ _PLACES = {
     "Profile": "profiles",
     "ProfileError": "errors",
     "RailElasticity": "coupling.elastic_rails",
+    "RailSection": "contact.rail_section",
     "SettingsError": "errors",
     "SideBearer": "vehicles.elements",
     "Spring": "vehicles.elements",

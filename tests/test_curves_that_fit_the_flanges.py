@@ -20,7 +20,7 @@ from exudyn_wheelset import (
     simulate,
     steady_curve,
 )
-from exudyn_wheelset.systems.fitting import check_curves, play
+from exudyn_wheelset.systems.fitting import check_curves, play, radial_steering_index
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 
 WHEELSET = Wheelset(mass=1500.0, inertia=(900.0, 100.0, 900.0), radius=0.46, wheel="S1002")
@@ -36,6 +36,20 @@ def test_play_is_that_of_the_drawings():
     assert 5.0e-3 < shift < 7.2e-3
     assert play(WHEELSET, Track("UIC60", gauge=1.445)) - shift == pytest.approx(5.0e-3, abs=5e-4)
     assert play(replace(WHEELSET, wheel="cone_1_20"), TRACK) == math.inf
+
+
+def test_radial_steering_index_of_a_cone_and_of_a_flanged_wheel():
+    """A cone of l has dr = 2 l y: e r0/(2 l y R), over the 20 mm that count without a flange.
+
+    To 5 %: at 20 mm the wheelset has rolled, and stands 0.3 mm beside on the arcs of its rails.
+    """
+    cone = replace(WHEELSET, wheel="cone_1_20")
+    known = 1.5 * 0.46 / 500.0 / (2.0 * 0.05 * 0.02)
+    assert radial_steering_index(cone, TRACK, -500.0) == pytest.approx(known, rel=0.05)
+    # S1002 has a few millimetres of difference in its throat, enough for some hundreds of metres.
+    wide, narrow = (radial_steering_index(WHEELSET, TRACK, radius) for radius in (2000.0, 200.0))
+    assert narrow == pytest.approx(10.0 * wide, rel=1e-12)
+    assert wide < 1.0
 
 
 def wagon(*places):

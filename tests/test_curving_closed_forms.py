@@ -304,12 +304,14 @@ def test_runs_that_do_not_go_with_the_irregularity_are_refused():
         simulate(COACH.on(replace(COACH.track, irregularity=fine)), 40.0, 0.1)
 
 
-def test_where_newtons_method_ends_it_says_how_far_it_came():
-    """The trailing wheelsets go over to their inner flanges near 160 m."""
-    with pytest.raises(AnalysisError, match=r"no steady running at 10 m/s beyond 0\.\d+ of"):
-        steady_curve(COACH, 150.0, 0.0, 10.0)
+def test_where_newtons_method_ends_the_vehicle_is_driven_in_or_it_says_why_not():
+    """Near 160 m the trailing wheelsets go over to their inner flanges; at 30 m/s none holds it."""
     beyond = steady_curve(COACH, 100.0, 0.0, 10.0)
     assert beyond.y[1] > 5e-3 and beyond.y[0] < -5e-3
+    with pytest.raises(
+        AnalysisError, match=r"beyond 0\.\d+ of .* driven into it over a transition"
+    ):
+        steady_curve(COACH, 100.0, 0.0, 30.0)
 
 
 def test_mirrored_vehicles_on_mirrored_track():
@@ -338,9 +340,10 @@ def test_a_suspended_body_leans_as_its_springs_say():
 def test_the_pull_through_a_curve_is_what_creep_takes():
     """Work of the drawbar over the way is that of all creep forces on creepage, the wear numbers.
 
-    Patches of a wheel that merge share one creepage, which makes half a per cent here.
+    To 0.5 %, with normal forces that are a gradient and do no work of their own; at a place that is
+    averaged over a patch, as that of "hertz", they do (5 N here, 0.6 %).
     """
-    curve = steady_curve(COACH, 300.0, 0.12, 18.0)
+    curve = steady_curve(COACH.replace("contact.normal", "energy"), 300.0, 0.12, 18.0)
     bar = curve.system.vehicle_items.drawbar
     part = COACH.parts[bar.part].name
     pull = bar.pull - bar.stiffness * curve[f"{part}: x"]
@@ -349,8 +352,8 @@ def test_the_pull_through_a_curve_is_what_creep_takes():
         for patches in curve.patches.values()
         for patch in patches
     )
-    assert taken == pytest.approx(pull, rel=1e-2)
-    assert curve.wear_number().sum() == pytest.approx(pull, rel=1e-2)
+    assert taken == pytest.approx(pull, rel=5e-3)
+    assert curve.wear_number().sum() == pytest.approx(pull, rel=5e-3)
 
 
 def test_halving_the_step_leaves_what_is_below_20_hz():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from exudyn_wheelset import AnalysisError, Ending, Motion, Outcome
-from exudyn_wheelset.results import comfort, en14363
+from exudyn_wheelset.results import comfort, en14363, limits
 from exudyn_wheelset.results import running_safety as safety
 
 TIME = np.arange(0.0, 40.0, 0.002)
@@ -180,3 +180,27 @@ def test_methods_of_a_motion_are_these_formulas_of_its_own_columns():
     sections = motion.percentiles(motion.sum_of_y())
     assert sections[:, 1, 0] == pytest.approx(0.0, abs=5e-3 * push)
     assert sections[:, 2, 0] == pytest.approx(push, rel=5e-3)
+
+
+def test_limits_of_49_cfr_213_333_by_hand():
+    """75 degrees: (3.732 - 0.5)/(1 + 1.866) = 1.128; an axle of 50 kips: 0.4 + 5/50 = 0.5."""
+    assert limits.single_wheel_limit(math.radians(75.0)) == pytest.approx(1.1277, abs=1e-4)
+    assert limits.net_axle_limit(50.0 * 4448.2216) == pytest.approx(0.5, rel=1e-9)
+    for limit in (*limits.EN_14363.values(), *limits.CFR_213_333.values(), *limits.COMFORT_STEPS):
+        assert limit.edition and limit.unit and limit.formula
+
+
+def test_peak_to_peak_and_detrended_rms_of_a_sine_on_a_slope():
+    """A sine of amplitude a on a line: peak to peak 2 a without it, RMS_t a/sqrt(2) with it.
+
+    Over a whole number of periods; what the sine has in common with the line is 3 a/(pi n) at most
+    in the line's share, its square 0.9 % of the mean square for n = 4 periods.
+    """
+    a, frequency = 0.3, 5.0
+    wave = sine(frequency, a)
+    assert limits.peak_to_peak(TIME, wave, 1.0) == pytest.approx(2.0 * a, rel=1e-3)
+    slow = wave + 0.7 * TIME - 2.0
+    assert limits.detrended_rms(TIME, slow, 4.0) == pytest.approx(a / math.sqrt(2.0), rel=5e-3)
+    assert limits.detrended_rms(TIME, 0.7 * TIME, 2.0) == pytest.approx(0.0, abs=1e-6)
+    with pytest.raises(AnalysisError, match="run longer"):
+        limits.peak_to_peak(TIME[:10], wave[:10], 1.0)

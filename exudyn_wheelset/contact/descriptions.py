@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from os import PathLike
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -18,14 +18,12 @@ from scipy.optimize import brentq
 
 from exudyn_wheelset.checking import moments_of_inertia, number, positive, unknown
 from exudyn_wheelset.contact.friction import FLANGE, TOP, TREAD, frictions
+from exudyn_wheelset.contact.rail_section import ProfileSource, RailSection, profile_of_kind
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
-
-ProfileSource = Profile | str | PathLike
-
 
 # Names of the normal contact models and their numbers in the kernels.
 NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips": 3, "energy": 4}
@@ -33,16 +31,6 @@ NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips
 
 # The creep law whose friction falls with slip by itself; in a contact the contact sees to that.
 _FALLING = "polach-2005"
-
-
-def _profile_of_kind(source: ProfileSource, kind: str) -> Profile:
-    profile = load_profile(source)
-    if profile.kind != kind:
-        raise WheelsetError(
-            f"profile {profile.name!r} is a {profile.kind}, but a {kind} profile is needed here: "
-            f"give a {kind} profile"
-        )
-    return profile
 
 
 @dataclass(frozen=True)
@@ -84,10 +72,10 @@ class Wheelset:
         put(self, "mass", positive("mass", mass, "kg", 1e5))
         put(self, "inertia", moments_of_inertia("inertia", inertia, self.mass))
         put(self, "radius", positive("radius", radius, "m", 2.0))
-        put(self, "wheel", _profile_of_kind(wheel, "wheel"))
+        put(self, "wheel", profile_of_kind(wheel, "wheel"))
         half_distance = positive("tape_half_distance", tape_half_distance, "m", 2.0)
         put(self, "tape_half_distance", half_distance)
-        right = None if right_wheel is None else _profile_of_kind(right_wheel, "wheel")
+        right = None if right_wheel is None else profile_of_kind(right_wheel, "wheel")
         put(self, "right_wheel", right)
         if right_radius is not None:
             right_radius = positive("right_radius", right_radius, "m", 2.0)
@@ -104,7 +92,8 @@ class Contact:
     thirty times); creep: name of a creep law, or a compiled function of one's own
     (`register_creep_law`); friction [-] of both rails everywhere; shear_modulus [Pa]; poisson [-];
     damping [s/m] of the normal contact, whose force it makes 1 + damping times the closing speed as
-    large (0: elastic; 1 s/m damps the bounce of a wheelset on its contact by some 4 % of critical).
+    large (0: elastic; 0.3 s/m is that of steel, docs/decisions/contact-damping.md, and damps the
+    bounce of a wheelset on its contact by some 1 % of critical).
     law_parameters: those of the creep law, by name, here as pairs sorted by name; they may be given
     as keywords of their own as well.
     Friction by rail and zone, each None where it is not of its own: flange_friction (flange on
@@ -129,7 +118,7 @@ class Contact:
     friction: float = 0.3
     shear_modulus: float = 82.0e9
     poisson: float = 0.28
-    damping: float = 0.0
+    damping: float = 0.3
     law_parameters: tuple[tuple[str, float], ...] = ()
     right_friction: float | None = None
     flange_friction: float | None = None
@@ -269,7 +258,8 @@ class Track:
     0 for a profile that is already inclined). right_rail defaults to the left one.
     Instead of the gauge, datum_half_distance [m] may place the rails' highest points directly.
     layout: how the track lies, None for straight and level for ever; irregularity: how far the
-    rails lie off that, None for not at all.
+    rails lie off that, None for not at all. sections: RailSection by RailSection, from where on the
+    rails have other profiles, each over a length `blend` [m] about its start (changing_rails.py).
 
     Examples
     --------
@@ -288,6 +278,8 @@ class Track:
     origin_half_distance: float | None = field(default=None)
     layout: Layout | None = None
     irregularity: Irregularity | None = None
+    sections: tuple[RailSection, ...] = ()
+    blend: float = 5.0
 
     def __init__(
         self,
@@ -300,6 +292,8 @@ class Track:
         origin_half_distance: float | None = None,
         layout: Layout | None = None,
         irregularity: Irregularity | None = None,
+        sections: Iterable[RailSection] = (),
+        blend: float = 5.0,
     ) -> None:
         if not isinstance(layout, Layout | None):
             raise WheelsetError(f"layout = {layout!r}: give a Layout([Straight(...), ...])")
@@ -311,12 +305,12 @@ class Track:
         if datum_half_distance is not None and origin_half_distance is not None:
             raise WheelsetError("give datum_half_distance or origin_half_distance, not both")
         put = object.__setattr__
-        put(self, "rail", _profile_of_kind(rail, "rail"))
+        put(self, "rail", profile_of_kind(rail, "rail"))
         put(self, "gauge", positive("gauge", gauge, "m", 3.0))
         put(self, "gauge_depth", positive("gauge_depth", gauge_depth, "m", 0.05))
         slope = number("inclination", inclination, "-", -0.2, 0.2, "a slope such as 1/40")
         put(self, "inclination", slope)
-        right = None if right_rail is None else _profile_of_kind(right_rail, "rail")
+        right = None if right_rail is None else profile_of_kind(right_rail, "rail")
         put(self, "right_rail", right)
         for what, value in (
             ("datum_half_distance", datum_half_distance),
@@ -325,6 +319,20 @@ class Track:
             put(self, what, None if value is None else positive(what, value, "m", 2.0))
         put(self, "layout", layout)
         put(self, "irregularity", irregularity)
+        put(self, "blend", positive("blend", blend, "m", 1e3))
+        put(self, "sections", tuple(sections))
+        self._check_sections()
+
+    def _check_sections(self) -> None:
+        for one in self.sections:
+            if not isinstance(one, RailSection):
+                raise WheelsetError(f"sections: {one!r}: give RailSection(start, rail)")
+        for one, other in pairwise(self.sections):
+            if other.start - one.start < self.blend:
+                raise WheelsetError(
+                    f"sections: {other.start:g} m follows {one.start:g} m, where the rails change "
+                    f"over {self.blend:g} m: give starts that rise by that, or a shorter blend"
+                )
 
     @cached_property
     def left_placement(self) -> RailPlacement:

@@ -103,7 +103,7 @@ def create_wheelset(
     check_kinds(mbs, wheelset, track, contact)
     check_motion(speed, gravity, {"moving_frame": moving_frame, "sensors": sensors, "show": show})
     check_place(guidance(wheelset, track), position, height, lateral_offset, yaw)
-    check_rails(irregularity, rail_elasticity)
+    check_rails(irregularity, rail_elasticity, track)
     if irregularity is not None:
         track = replace(track, irregularity=irregularity)
     name = unused_name(mbs, name)

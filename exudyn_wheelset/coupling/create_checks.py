@@ -9,6 +9,7 @@ import exudyn as exu
 import numpy as np
 
 from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.contact.changing_rails import rails_change
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance
@@ -69,11 +70,16 @@ def check_motion(speed: Any, gravity: Any, switches: Mapping[str, Any]) -> None:
             raise WheelsetError(f"{what} = {value!r}: give True or False")
 
 
-def check_rails(irregularity: Any, rail_elasticity: Any) -> None:
+def check_rails(irregularity: Any, rail_elasticity: Any, track: Track) -> None:
     """Raise WheelsetError for rails that do not say how they lie."""
     if not isinstance(rail_elasticity, RailElasticity | None):
         raise WheelsetError(
             f"rail_elasticity = {rail_elasticity!r}: give a RailElasticity(...) or leave it out"
+        )
+    if rail_elasticity is not None and rails_change(track):
+        raise WheelsetError(
+            "rail_elasticity on rails that change along the track: give one of the two, elastic "
+            "rails or sections"
         )
     if not isinstance(irregularity, Irregularity | None):
         raise WheelsetError(

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.contact.changing_rails import rails_change
+from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.coupling import track_kernel as kernel
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
@@ -16,9 +18,10 @@ _FAR_BEHIND = -1.0e12
 class TrackFrame:
     """A frame that travels along a track, for all wheelsets and bodies of one vehicle.
 
-    layout, irregularity: of the track, or None. At time zero it stands at the station `start` [m]
-    and has the speed [m/s]. Until it is live the track is everywhere as at `start`, without
-    irregularity. array: for the kernels, track_kernel.py.
+    layout, irregularity: of the track, or None; changing: whether its rails' profiles change. At
+    time zero it stands at the station `start` [m] and has the speed [m/s]. Until it is live the
+    track is everywhere as at `start`, without irregularity. array: for the kernels,
+    track_kernel.py.
 
     Examples
     --------
@@ -29,9 +32,12 @@ class TrackFrame:
     """
 
     def __init__(
-        self, layout: Layout | None = None, irregularity: Irregularity | None = None
+        self,
+        layout: Layout | None = None,
+        irregularity: Irregularity | None = None,
+        changing: bool = False,
     ) -> None:
-        self.layout, self.irregularity = layout, irregularity
+        self.layout, self.irregularity, self.changing = layout, irregularity, changing
         parts: list[Array] = [np.zeros(kernel.HEADER)]
         count = 0
         if layout is not None:
@@ -66,10 +72,15 @@ class TrackFrame:
         self.array[kernel.CURVED] = float(layout is not None and not layout.is_straight)
         self.begin(0.0)
 
+    @classmethod
+    def of(cls, track: Track) -> TrackFrame:
+        """The frame of a track."""
+        return cls(track.layout, track.irregularity, rails_change(track))
+
     @property
     def is_plain(self) -> bool:
         """Whether all stations of the track are alike, straight and level."""
-        return not self.is_curved and self.irregularity is None
+        return not self.is_curved and self.irregularity is None and not self.changing
 
     @property
     def is_curved(self) -> bool:

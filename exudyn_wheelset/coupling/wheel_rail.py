@@ -28,9 +28,11 @@ import numpy as np
 
 from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.contact import layout as kernel
+from exudyn_wheelset.contact.changing_rails import rails_change
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
+from exudyn_wheelset.coupling.changing_rails import ChangingRails
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance, guidance
 from exudyn_wheelset.coupling.track_frame import TrackFrame
@@ -44,6 +46,7 @@ from exudyn_wheelset.coupling.wheelset_kernel import (
     RATES,
     REFERENCE,
     RESULT,
+    SECTIONS,
     SHIFTS,
     STATION,
     body_wrench,
@@ -96,7 +99,10 @@ class WheelRailContact:
         self._shifts = self._state[SHIFTS]
         if self.elasticity is not None:
             self._state[ELASTICITY] = self.elasticity.numbers()
-        self.track_frame = self.frame or TrackFrame(self.track.layout, self.track.irregularity)
+        if rails_change(self.track):
+            self._sections = ChangingRails(self.wheelset, self.track)
+            self._state[SECTIONS] = self._sections.numbers()
+        self.track_frame = self.frame or TrackFrame.of(self.track)
         self._rail_object: Any = None
         self._rail_place = slice(0, 0)
         self.forget()

@@ -22,6 +22,7 @@ from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Velocity, side_of
+from exudyn_wheelset.coupling.changing_rails import changing_forces
 from exudyn_wheelset.coupling.elastic_rails import elastic_forces
 from exudyn_wheelset.coupling.track_kernel import (
     CURVED,
@@ -46,8 +47,10 @@ SHIFTS = slice(32, 36)
 RATES = slice(36, 40)
 PLACE = slice(40, 48)
 TRACK_POSE = slice(48, 60)
-PARAMETERS = slice(60, 60 + kernel.PARAMETER_COUNT)
-RESULT = slice(60 + kernel.PARAMETER_COUNT, None)
+# Address and length of what changing_rails.py of this folder holds, 0 for rails of one profile.
+SECTIONS = slice(60, 62)
+PARAMETERS = slice(62, 62 + kernel.PARAMETER_COUNT)
+RESULT = slice(62 + kernel.PARAMETER_COUNT, None)
 # In the track's own frame at the wheelset: y, z [m] of its centre, the axle's direction, speed
 # over the rails [m/s], station [m].
 Y, Z, LX, LY, LZ, FORWARD, STATION = range(7)
@@ -160,9 +163,12 @@ def body_wrench(q, v, first, table, state, track, t, part):
         place = state[PLACE]
         pose = state[TRACK_POSE]
         speed = parameters.view(kernel.PARAMETERS)[0].rail_speed
-        if track[CURVED] != 0.0 or track[KNOTS] > 0.0:
+        sections = state[SECTIONS]
+        uneven = track[CURVED] != 0.0 or track[KNOTS] > 0.0
+        if uneven or sections[0] != 0.0:
             x = reference[0] + q[first]
             axle, velocity = _on_the_track(track, t, x, axle, velocity, height, speed, place, pose)
+        if uneven:
             rail_shape(track, place[STATION], motion)
         place[Y] = axle.y
         place[Z] = height + axle.z
@@ -176,6 +182,8 @@ def body_wrench(q, v, first, table, state, track, t, part):
                 table, axle, velocity, motion, parameters, result,
                 elasticity, state[SHIFTS], state[RATES],
             )  # fmt: skip
+        elif sections[0] != 0.0:
+            changing_forces(sections, place[STATION], axle, velocity, motion, parameters, result)
         else:
             wheelset_forces(table, axle, velocity, motion, parameters, result)
         if track[CURVED] != 0.0:

@@ -1,4 +1,4 @@
-"""Ride comfort from accelerations: EN 12299, Sperling's index, and the limits of 49 CFR 213.333.
+"""Ride comfort from accelerations: EN 12299 and Sperling's index; limits stand in limits.py.
 
 Weightings of EN 12299:2009 (as ISO 2631-1:1997, ISO 8041), with s = i 2 pi f, w_k = 2 pi f_k:
 
@@ -63,32 +63,6 @@ WEIGHTINGS = {
     "Wb": Weighting(_EDITION, (16.0, 16.0, 0.63), (2.5, 0.8, 4.0, 0.8), 0.4 * (4.0 / 2.5) ** 2),
     "Wk": Weighting(_EDITION, (12.5, 12.5, 0.63), (2.37, 0.91, 3.35, 0.91)),
 }
-
-
-@dataclass(frozen=True)
-class Limit:
-    """A limit with where it stands: value, unit, formula in words."""
-
-    edition: str
-    value: float
-    unit: str
-    formula: str
-
-
-# 1 g = 9.81 m/s^2; a steady value beyond them is unsafe (49 CFR 213.333, vehicle/track limits).
-CFR_213_333 = {
-    "carbody lateral": Limit("49 CFR 213.333", 0.65, "g", "peak to peak over 1 s, 10 Hz low pass"),
-    "carbody vertical": Limit("49 CFR 213.333", 1.0, "g", "peak to peak over 1 s, 10 Hz low pass"),
-    "truck lateral": Limit(
-        "49 CFR 213.333", 0.30, "g", "root mean square over 2 s, mean removed, 10 Hz low pass"
-    ),
-}
-COMFORT_STEPS = (
-    Limit("EN 12299:2009", 1.5, "-", "N_MV below: very comfortable"),
-    Limit("EN 12299:2009", 2.5, "-", "N_MV below: comfortable"),
-    Limit("EN 12299:2009", 3.5, "-", "N_MV below: medium"),
-    Limit("EN 12299:2009", 4.5, "-", "N_MV below: uncomfortable; above: very uncomfortable"),
-)
 
 
 def weighted(time: Array, acceleration: Array, weighting: str) -> Array:

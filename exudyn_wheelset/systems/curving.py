@@ -6,6 +6,10 @@ finds it from straight track by continuation: curvature, cant, gradient and wide
 each step begins from the line through the last two states, measured from the track at every body,
 and a step that fails is halved. Where Newton's method ends (a wheel that goes over from tread to
 flange), the vehicle runs in the curve until it is steady, and Newton's method goes on from there.
+
+Where normal or creep forces jump (two patches of a wheel that become one), there may be no state in
+which all balance: the vehicle then runs steadily but for a chatter of hundredths of a millimetre
+across the jump. Its mean is given, with how far it chatters (`VehicleSystem.unsteadiness`).
 """
 
 from __future__ import annotations
@@ -36,6 +40,10 @@ _FIRST_SHARE, _LEAST_SHARE = 0.2, 1.0e-3
 _NEWTON_STEPS = 25
 # Where Newton's method ends: shares of the curve to leap by, and seconds to settle.
 _LEAPS, _SETTLING_RUNS = (0.02, 0.05, 0.1, 0.2, 0.4), 15
+# A motion that stays within this [m, rad] for a second is steady but for a jump of forces.
+_STEADY, _SURELY_STEADY = 2.0e-4, 1.0e-5
+# Seconds in a curve after which a vehicle that was driven in is steady.
+_DRIVE = 12.0
 # Way [m] for the rate at which the track changes beside a frame.
 _DIFFERENCE = 1.0e-3
 
@@ -110,10 +118,12 @@ def _track_beside(frame: TrackFrame, x: float) -> tuple[Array, Array, Array, Arr
 def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) -> Array:
     """Steady state (n,) at a speed [m/s] on the track as the frame holds it, not live.
 
+    Sets `system.unsteadiness` to how far a motion chatters about it [m, rad], 0 for an equilibrium.
     Raises AnalysisError with how much of the curve was reached.
     """
     target = frame.frozen
     straight = 0.0 * target
+    system.unsteadiness = 0.0
     try:
         frame.freeze(*straight)
         forget(system.wheelsets)
@@ -131,6 +141,7 @@ def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) ->
             guess = moved_with_track(system, frame, guess, straight, here)
             try:
                 state = newton_equilibrium(system, speed, guess, steps=_NEWTON_STEPS)
+                system.unsteadiness = 0.0
             except AnalysisError as error:
                 if step > _LEAST_SHARE:
                     step *= 0.5
@@ -142,7 +153,7 @@ def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) ->
                         f"{system.name}: no steady running at {speed:g} m/s beyond "
                         f"{shares[-1]:.3f} of the curve (radius {radius:.4g} m): {error}"
                     ) from error
-                share, state = beyond
+                share, state, system.unsteadiness = beyond
                 here = share * target
                 states, shares = states[:0], shares[:0]
             off = _off_the_rails(system, state, speed)
@@ -166,23 +177,25 @@ def curve_equilibrium(system: VehicleSystem, frame: TrackFrame, speed: float) ->
 def _beyond(
     system: VehicleSystem, frame: TrackFrame, speed: float, state: Array, share: float,
     target: Array,
-) -> tuple[float, Array] | None:  # fmt: skip
-    """Share of the curve and steady state there, past a place where Newton's method ends.
+) -> tuple[float, Array, float] | None:  # fmt: skip
+    """Share of the curve, steady state there and its chatter, where Newton's method ends.
 
-    state: measured from the track at `share`. By leaps, then by letting the vehicle run.
+    state: measured from the track at `share`. By leaps, and by letting the vehicle run until
+    Newton's method goes on or the motion is steady but for a chatter.
     """
     straight = 0.0 * target
     for leap in _LEAPS:
         there = min(1.0, share + leap)
         guess = moved_with_track(system, frame, state, straight, there * target)
         try:
-            return there, newton_equilibrium(system, speed, guess, steps=_NEWTON_STEPS)
+            return there, newton_equilibrium(system, speed, guess, steps=_NEWTON_STEPS), 0.0
         except AnalysisError:
             continue
+    # A longer way at once throws the vehicle off its rails.
     there = min(1.0, share + _LEAPS[0])
     guess = moved_with_track(system, frame, state, straight, there * target)
-    settled = _settled(system, guess, speed)
-    return None if settled is None else (there, settled)
+    settled, chatter = _settled(system, guess, speed)
+    return (there, settled, chatter) if settled is not None and chatter < _STEADY else None
 
 
 def _off_the_rails(system: VehicleSystem, state: Array, speed: float) -> Outcome | None:
@@ -191,20 +204,64 @@ def _off_the_rails(system: VehicleSystem, state: Array, speed: float) -> Outcome
     return DerailmentWatch(system.contacts).look(0.0)
 
 
-def _settled(system: VehicleSystem, state: Array, speed: float) -> Array | None:
-    """Steady state that a motion from a state comes to, or None."""
+def _settled(system: VehicleSystem, state: Array, speed: float) -> tuple[Array | None, float]:
+    """Steady state that a motion from a state comes to, or its mean over a second, and its chatter.
+
+    The chatter [m, rad] is the greatest that a pose changes within the second, 0 for an
+    equilibrium; None where the motion ends.
+    """
     if system.compiled is None:
-        return None
+        return None, np.inf
+    samples, chatter = np.zeros((1, len(state))), np.inf
     for _ in range(_SETTLING_RUNS):
-        samples, outcome = system.carry_on(state, speed, np.linspace(0.0, 1.0, 21))
+        samples, outcome = system.carry_on(state, speed, np.linspace(0.0, 1.0, 201))
         if outcome.ending is not Ending.FINISHED:
-            return None
+            return None, np.inf
         state = samples[-1]
         try:
-            return newton_equilibrium(system, speed, state, steps=_NEWTON_STEPS)
+            return newton_equilibrium(system, speed, state, steps=_NEWTON_STEPS), 0.0
         except AnalysisError:
-            continue
-    return None
+            chatter = chatter_of(system, samples)
+            if chatter < _SURELY_STEADY:
+                break
+    return samples.mean(axis=0), chatter
+
+
+def chatter_of(system: VehicleSystem, samples: Array) -> float:
+    """The greatest that a pose [m, rad] changes over samples (m, n) of a motion."""
+    poses = [
+        k for k, name in enumerate(system.state_names)
+        if name.endswith((": y [m]", ": z [m]", ": yaw [rad]", ": roll [rad]"))
+    ]  # fmt: skip
+    return float(np.ptp(samples[:, poses], axis=0).max())
+
+
+def driven_in(
+    system: VehicleSystem, arriving: VehicleSystem, speed: float, way: float
+) -> tuple[Array, float]:
+    """Steady state (n,) of a system in a curve, and its chatter, by driving into the curve.
+
+    arriving: the same vehicle on a track that leads over a transition into that curve, which it has
+    reached after the way [m]. Raises AnalysisError with how the drive ended.
+    """
+    duration = way / speed + _DRIVE
+    samples = max(2, round(200 * duration))
+    state = arriving.equilibrium(speed)
+    stand_at(arriving.wheelsets, 0.0, True)
+    states, outcome = arriving.carry_on(state, speed, np.linspace(0.0, duration, samples + 1))
+    if outcome.ending is not Ending.FINISHED:
+        raise AnalysisError(f"driven into it over a transition: {outcome}")
+    last = states[-200:]
+    try:
+        return newton_equilibrium(system, speed, states[-1], steps=_NEWTON_STEPS), 0.0
+    except AnalysisError as error:
+        chatter = chatter_of(system, last)
+        if chatter > _STEADY:
+            raise AnalysisError(
+                f"driven into it over a transition it moves by {1e3 * chatter:.3g} mm or mrad for "
+                f"ever: {error}"
+            ) from error
+        return last.mean(axis=0), chatter
 
 
 def follow_rails(system: ExudynSystem, state: Array, speed: float, start: float) -> Array:

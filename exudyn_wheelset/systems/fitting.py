@@ -55,6 +55,19 @@ def play(wheelset: Wheelset, track: Track, yaw: float = 0.0) -> float:
     return math.inf
 
 
+def radial_steering_index(wheelset: Wheelset, track: Track, radius: float) -> float:
+    """Rolling radius difference that a curve asks for over what there is before the flange.
+
+    q_E = (e r_0/|R|)/dr(y), e the distance of the tape circles, y the play (EN 14363:2016): up to 1
+    a wheelset can roll through a curve of the radius R [m] without slip. Infinite without conicity.
+    """
+    shift = min(play(wheelset, track), 0.02)
+    geometry = contact_geometry(wheelset, track, [max(shift - _SHIFTS[1], 0.0)])
+    there_is = float(geometry.rolling_radius_difference[0])
+    needed = 2.0 * wheelset.tape_half_distance * wheelset.radius / abs(radius)
+    return needed / there_is if there_is > 0.0 else math.inf
+
+
 def check_curves(name: str, wheelsets: Sequence[WheelsetItems]) -> None:
     """Warn of curves in which parallel axles of a truck do not fit between their rails.
 

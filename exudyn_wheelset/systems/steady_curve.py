@@ -6,11 +6,13 @@
     curve.patches["front leading", "left"]
     simulate(coach.on(track), 20.0, 10.0, start=..., initial=curve.state)
 
-Found by continuation from straight track (curving.py).
+Found by continuation from straight track, and where that ends by driving into the curve over a
+transition (curving.py).
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -21,17 +23,29 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.contact.layout import Patch
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.errors import AnalysisError, WheelsetWarning
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
-from exudyn_wheelset.systems.fitting import check_curves
+from exudyn_wheelset.systems.curving import driven_in
+from exudyn_wheelset.systems.fitting import check_curves, radial_steering_index
 from exudyn_wheelset.systems.simulation import motion_of
 from exudyn_wheelset.systems.system import DynamicSystem
 from exudyn_wheelset.systems.vehicle_system import VehicleSystem, vehicle_system
-from exudyn_wheelset.track.layout import BASE, Curve, Layout
+from exudyn_wheelset.track.layout import (
+    BASE,
+    Curve,
+    Layout,
+    Straight,
+    TrackElement,
+    Transition,
+)  # fmt: skip
 from exudyn_wheelset.vehicles.description import Vehicle
+
+# Transition [m], and seconds on it, by which a vehicle is driven into a curve where continuation
+# ends, and the straight before it [m], longer than half a vehicle.
+_TRANSITION, _RAMP, _STRAIGHT = 60.0, 3.0, 20.0
 
 
 @brief
@@ -100,6 +114,13 @@ class SteadyCurve:
         """T-gamma (wheelsets, 2) [N]: |F_x xi_x| + |F_y xi_y| + |M_z phi| over all patches."""
         return self.motion.wear_number()[0]
 
+    def steering_index(self) -> Array:
+        """q_E (wheelsets,): rolling radius difference needed over available (fitting.py)."""
+        contacts = self.system.contacts  # type: ignore[attr-defined]
+        return np.array(
+            [radial_steering_index(one.wheelset, one.track, self.radius) for one in contacts]
+        )
+
     def friction_use(self) -> dict[tuple[str, str], tuple[float, ...]]:
         """Creep force over friction times normal force of every patch, by wheelset and side."""
         return {
@@ -148,11 +169,38 @@ def steady_curve(
     track = replace(vehicle.track, layout=layout, irregularity=None)
     system = vehicle_system(vehicle.on(track))
     check_curves(system.name, system.wheelsets)
-    state = system.equilibrium(speed)
+    try:
+        state = system.equilibrium(speed)
+    except AnalysisError as error:
+        if speed <= 0.0:
+            raise
+        way = max(_TRANSITION, _RAMP * speed)
+        entry: list[TrackElement] = [
+            Straight(_STRAIGHT), Transition(way), Curve(radius, 1.0, cant, widening)
+        ]  # fmt: skip
+        arriving = vehicle_system(
+            vehicle.on(replace(track, layout=Layout(entry, grades, base), irregularity=None))
+        )
+        try:
+            state, system.unsteadiness = driven_in(system, arriving, speed, way + 2.0 * _STRAIGHT)
+        except AnalysisError as other:
+            raise AnalysisError(f"{error}; {other}") from error
     record = describe(system, "steady curve", {"radius": radius, "cant": cant, "speed": speed})
-    raw = tuple(row[None, :] for row in system.layout.expand(state))
-    outcome = Outcome(Ending.FINISHED)
-    motion = motion_of(system, np.zeros(1), raw, outcome, speed, 0.0, record)
+    motion = _at(system, np.zeros(1), state[None, :], speed, record)
+    if system.unsteadiness > 0.0:
+        warnings.warn(
+            f"{system.name} in R = {radius:g} m at {speed:g} m/s runs on a jump of its contact "
+            f"forces and chatters by {1e3 * system.unsteadiness:.2g} mm or mrad: what is given is "
+            "the mean of a second; the jump belongs to patches that merge (normal='energy' has "
+            "less of it)",
+            WheelsetWarning,
+            stacklevel=2,
+        )
+        times = np.linspace(0.0, 1.0, 501)
+        samples, _ = system.carry_on(state, speed, times)
+        whole = _at(system, times[: len(samples)], samples, speed, record)
+        means = {name: values.mean(keepdims=True) for name, values in whole.columns.items()}
+        motion = replace(motion, columns=means)
     return SteadyCurve(
         float(radius),
         float(cant),
@@ -162,6 +210,15 @@ def steady_curve(
         MappingProxyType(_patches(system, state)),
         system,
     )
+
+
+def _at(
+    system: VehicleSystem, times: Array, states: Array, speed: float, record: Mapping[str, Any]
+) -> Motion:
+    """States (m, n) of the frozen curve as a motion."""
+    rows = [system.layout.expand(row) for row in states]
+    raw = tuple(np.array([row[k] for row in rows]) for k in range(3))
+    return motion_of(system, times, raw, Outcome(Ending.FINISHED), speed, 0.0, record)
 
 
 def _patches(system: VehicleSystem, state: Array) -> dict[tuple[str, str], tuple[Patch, ...]]:

@@ -46,6 +46,8 @@ class VehicleSystem(ExudynSystem):
     compiled: CompiledVehicle | None = None
     compiled_motion = False
     _coarseness = 1.0
+    # How far [m, rad] a motion chatters about the steady state of a curve, 0 for an equilibrium.
+    unsteadiness = 0.0
     _stable_step: tuple[float, float] = (-1.0, 0.0)
 
     def compile(self, vehicle: Vehicle, items: VehicleItems) -> None:

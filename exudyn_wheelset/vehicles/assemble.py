@@ -193,7 +193,7 @@ def add_vehicle(
     track = vehicle.track
     if options.get("irregularity") is not None:
         track = replace(track, irregularity=options.pop("irregularity"))
-    travelling = TrackFrame(track.layout, track.irregularity)
+    travelling = TrackFrame.of(track)
     shift = np.array([position[0], position[1], 0.0])
     name = _unused_name(mbs, vehicle)
     prefix = "" if name == vehicle.name else f"{name} "

@@ -370,4 +370,10 @@ def _mirrored_track(track: Track) -> Track:
         right_rail=None if track.right_rail is None else track.rail,
         layout=None if track.layout is None else track.layout.mirrored(),
         irregularity=None if track.irregularity is None else track.irregularity.mirrored(),
+        sections=tuple(
+            one
+            if one.right_rail is None
+            else dataclasses.replace(one, rail=one.right_rail, right_rail=one.rail)
+            for one in track.sections
+        ),
     )

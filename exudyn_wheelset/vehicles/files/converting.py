@@ -13,13 +13,14 @@ from collections.abc import Iterable, Mapping
 from typing import Any, get_args, get_origin
 
 from exudyn_wheelset.checking import unknown
+from exudyn_wheelset.contact.rail_section import RailSection
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
 
 # What is an object already where a table is turned into one.
-MADE = (Profile, Layout, Irregularity)
+MADE = (Profile, Layout, Irregularity, RailSection)
 _KINDS = {bool: "true or false", str: "text", int: "a whole number", float: "a number"}
 
 

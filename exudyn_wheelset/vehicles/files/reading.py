@@ -16,6 +16,7 @@ import numpy as np
 from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
+from exudyn_wheelset.contact.rail_section import RailSection
 from exudyn_wheelset.errors import VehicleError, WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.vehicles.builder import VehicleBuilder
@@ -228,7 +229,15 @@ class _Reader:
                     made[key] = make(made[key], self._folder)
                 except Exception as error:
                     raise EntryError(f"{key}: {error}", key) from error
+        if "sections" in made:
+            made["sections"] = tuple(self._section(one) for one in made["sections"])
         return to_object(Track, made)
+
+    def _section(self, table: Any) -> RailSection:
+        if not isinstance(table, dict):
+            raise EntryError(f"{table!r} is no section of rails: give a table", "sections")
+        _check_keys(table, ["start", "rail", "right_rail"], ("start", "rail"))
+        return RailSection(**self._with_profiles(table))
 
     def _profile(self, source: Any, kind: str) -> Profile:
         options: dict[str, Any] = {}
