@@ -97,7 +97,7 @@ def write_metro_car(folder, contact=""):
         for sign in (1.0, -1.0):
             at = (x, sign * SECONDARY_SPACING, SECONDARY_HEIGHT)
             parts += [
-                _table("connection", type="spring", between=(frame, "body"), at=at,
+                _table("connection", type="coil_spring", between=(frame, "body"), at=at,
                        stiffness=(SECONDARY_LATERAL, SECONDARY_LATERAL, SECONDARY)),
                 _table("connection", type="damper", between=(frame, "body"), at=at,
                        direction=(0.0, 1.0, 0.0), damping=25e3, series_stiffness=6e6),
