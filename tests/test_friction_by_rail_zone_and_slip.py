@@ -33,7 +33,8 @@ def patches(y=0.0071, **contact):
     """Patches of a wheelset 0.1 mm deep in its rails, its left wheel on tread and flange."""
     rigid = contact_geometry(WHEELSET, TRACK, [y])
     pose = (0.0, y, rigid.z[0] - 1.0e-4, rigid.roll[0], 0.0, 0.0)
-    forces = contact_forces(WHEELSET, TRACK, pose, SLIDING, normal="hertz", **contact)
+    given = {"normal": "hertz", "damping": 0.0, **contact}
+    forces = contact_forces(WHEELSET, TRACK, pose, SLIDING, **given)
     return forces.left, forces.right
 
 

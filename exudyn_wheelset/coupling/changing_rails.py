@@ -14,7 +14,7 @@ from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.changing_rails import LEVELS, rail_levels
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.contact.forces import wheelset_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import MOST_PATCHES, RESULT_SIZE
 from exudyn_wheelset.contact.tables import contact_tables
 
