@@ -19,7 +19,7 @@ from exudyn_wheelset.stability.hunting.diagram import branch_from, first_hopf_po
 from exudyn_wheelset.systems.system import DynamicSystem
 
 MODELS = Path(__file__).parents[1] / "models"
-BOGIE = {"right_hand_sides": 60_677, "jacobians": 8_480, "newton_steps": 273}
+BOGIE = {"right_hand_sides": 85_732, "jacobians": 14_384, "newton_steps": 307}
 S1002 = {"right_hand_sides": 79_200, "jacobians": 11_900, "newton_steps": 645}
 
 

@@ -66,7 +66,7 @@ def test_multiplier_of_the_first_orbit_with_forces_from_an_energy(small_orbits):
     system, branch, normal = small_orbits
     if normal != "energy":
         pytest.skip("Hertz's forces have steps")
-    from exudyn_wheelset.stability.hunting.continuation import Point
+    from exudyn_wheelset.stability.hunting.aligned import Point
     from exudyn_wheelset.stability.hunting.floquet import Multipliers
     from exudyn_wheelset.stability.hunting.measured_growth import measured_growth
 

@@ -7,13 +7,8 @@ the root lambda that crosses, d lambda = w^H dA v/(w^H v), and Re(lambda) stays 
 
 dA/dp holds the shift of the equilibrium: A is taken at the equilibria on either side.
 
-Fold of limit cycles. The collocation equations G(X; p) = 0 of an orbit X = (x, T, V) have at a fold
-a tangent without speed. Across it they are regular:
-
-    G_X dX = -G_p dp,   <tangent, dX> = 0,   phase condition;      dV/dp = the speed of dX  (2)
-
-which is the quotient of the left null vector with G_p and with G_V. One factorisation serves all
-numbers; each costs the right-hand sides along the orbit on either side of it.
+Fold of limit cycles. Its speed is a linear functional of changes of f along its orbit, one vector
+for all numbers (see `fold_sensitivity`); each costs f along the orbit with it changed.
 
 Derivatives stand in m/s per unit of the number (SI); the influence is dV/V over dp/p.
 """
@@ -26,10 +21,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.stability.hunting.collocation import Collocation
-from exudyn_wheelset.stability.hunting.condensed import Direction
+from exudyn_wheelset.stability.hunting.aligned import FOLD_TOLERANCE
 from exudyn_wheelset.stability.hunting.fold_points import Side, fold_near, prepared
-from exudyn_wheelset.stability.hunting.folds import base_at
+from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity, sensitivity_at
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.numbers import Number, number_of, vehicle_numbers
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
@@ -39,9 +33,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# Of the fold's speed [m/s]: beside a flange that only just touches, the slope of the branch is
-# steep, and the orbit has to be the fold's.
-FOLD_TOLERANCE = 1e-8
 # Right-hand sides are exact to rounding, Jacobians are differences themselves: the former bear a
 # hundredth of the step, and need it, where a flange sinks in by some micrometres.
 RATE_STEP = 0.01
@@ -173,14 +164,13 @@ def differentiate(
     description: Any,
     number: Number,
     result: Callable[[DynamicSystem], Array],
-    share: float = 1.0,
 ) -> Array:
     """Derivative by a number of what `result` says of the system; central where both sides exist.
 
-    share: of the number's step. Raises WheelsetError where the vehicle takes neither side.
+    Raises WheelsetError where the vehicle takes neither side.
     """
     sides = []
-    for step in (share * number.step, -share * number.step):
+    for step in (number.step, -number.step):
         try:
             if number.value + step < 0.0 <= number.value:
                 raise WheelsetError(f"{number.name} is zero or positive")
@@ -237,51 +227,43 @@ def hopf_gradient(
 
 
 def fold_gradient(
-    vehicle: Any, orbit: Orbit, side: Side, names: Sequence[str] | None = None
+    vehicle: Any,
+    orbit: Orbit,
+    side: Side,
+    names: Sequence[str] | None = None,
+    sensitivity: FoldSensitivity | None = None,
 ) -> Gradient:
     """Gradient of the speed of the fold next to `orbit`, the "lowest" or the "highest" there.
 
-    The fold is found anew with a mesh point on each corner of f (see `corners`), and `speed` of
-    the gradient is that fold's. vehicle: description or name; names: of the numbers, None for all.
-    Raises AnalysisError where it is not found.
+    Without its sensitivity the fold is found anew with a mesh point on each corner of f (see
+    `corners`); `speed` of the gradient is that fold's. vehicle: description or name; names: of the
+    numbers, None for all. Raises AnalysisError where it is not found.
     """
     description = description_of(vehicle)
-    system = as_system(description)
-    point = fold_near(system, prepared(system, orbit), side, FOLD_TOLERANCE)
-    sensitivity = FoldSensitivity(system, point.orbit)
+    if sensitivity is None:
+        system = as_system(description)
+        point = fold_near(system, prepared(system, orbit), side, FOLD_TOLERANCE)
+        sensitivity = sensitivity_at(point)
+    fold = sensitivity
+    start = _rates(description, fold)
 
     def derivative(number: Number) -> float:
-        rates = differentiate(description, number, sensitivity.rates, RATE_STEP)
-        return sensitivity.speed_change(rates)
+        for step in (RATE_STEP * number.step, -RATE_STEP * number.step):
+            try:
+                other = changed(description, number.name, number.value + step)
+                return fold.change(_rates(other, fold) - start) / step
+            except WheelsetError as error:
+                failure = error
+        raise failure
 
-    return Gradient(point.orbit.speed, description, derivative, "speed of the fold", names)
+    return Gradient(fold.speed, description, derivative, "speed of the fold", names)
 
 
-class FoldSensitivity:
-    """The linear equations (2) about the orbit of a fold, for any change of the right-hand side."""
-
-    def __init__(self, system: DynamicSystem, orbit: Orbit) -> None:
-        # Whole, not half and mirrored: a single part of the vehicle may be what changes.
-        self.orbit = orbit.whole()
-        self.equations = equations = Collocation(system, orbit.period, 1.0)
-        self.condensed = equations.condense(self.orbit)
-        windows = equations.windows(self.orbit)
-        growth = Direction(windows - windows.mean(axis=(0, 1)), 0.0, 0.0)
-        row = equations.inner(self.orbit.mesh, growth)
-        self.tangent = base_at(equations, self.orbit, self.condensed, row).tangent
-        self._rows = [equations.phase(self.orbit), equations.inner(self.orbit.mesh, self.tangent)]
-        self._states = equations._node_states(self.orbit)
-
-    def rates(self, system: DynamicSystem) -> Array:
-        """f (k, n) in scales at the nodes of the orbit, of the system or of a changed one."""
-        rates = np.asarray(system.derivatives(self._states, self.orbit.speed))
-        if not np.all(np.isfinite(rates)):
-            raise AnalysisError(f"{system.name}: the equations are not finite along the orbit")
-        return rates / self.equations.scales
-
-    def speed_change(self, rates: Array) -> float:
-        """Change of the fold's speed [m/s] with a change (k, n) of f at the nodes, in scales."""
-        intervals, degree = len(self.orbit.mesh) - 1, self.orbit.degree
-        widths = np.diff(self.orbit.mesh)[:, None, None]
-        defects = -widths * self.orbit.period * rates.reshape(intervals, degree, -1)
-        return self.condensed.solve(defects, self._rows, [0.0, 0.0]).speed
+def _rates(description: Any, fold: FoldSensitivity) -> Array:
+    """f (k, n) along the orbit of a fold; a description may know it without a model."""
+    known = getattr(description, "derivatives", None)
+    derivatives = known if callable(known) else as_system(description).derivatives
+    rates = np.asarray(derivatives(fold.states, fold.speed))
+    if not np.all(np.isfinite(rates)):
+        raise AnalysisError("the equations are not finite along the orbit of the fold")
+    return rates

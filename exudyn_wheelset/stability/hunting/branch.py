@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from exudyn_wheelset.stability.gradients import Gradient
+    from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity
 
 KIND = "branch of limit cycles"
 
@@ -43,6 +44,7 @@ class Fold(float):
     index       of the point in the branch
     side        "lowest" (no cycle of the branch just below this speed) or "highest" (none above)
     orbit       the motion there, whole; source: the description of the vehicle, if it is known
+    sensitivity of the speed to changes of the equations, where it was computed with the branch
     """
 
     speed: float
@@ -52,6 +54,7 @@ class Fold(float):
     side: Literal["lowest", "highest"]
     orbit: Orbit | None = field(default=None, repr=False)
     source: Source | None = field(default=None, repr=False)
+    sensitivity: FoldSensitivity | None = field(default=None, repr=False)
 
     def __new__(cls, speed: float, *_: Any, **__: Any) -> Fold:
         return super().__new__(cls, speed)
@@ -66,7 +69,8 @@ class Fold(float):
 
         if self.orbit is None:
             raise AnalysisError("this fold was found without an orbit: follow the branch anew")
-        return fold_gradient(source_of(self.source, vehicle), self.orbit, self.side, names)
+        description = source_of(self.source, vehicle)
+        return fold_gradient(description, self.orbit, self.side, names, self.sensitivity)
 
 
 @brief

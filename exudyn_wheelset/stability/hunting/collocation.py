@@ -146,7 +146,7 @@ class Collocation:
 
         Raises OrbitError with contact_lost if f is not finite somewhere on the orbit.
         """
-        rates = self._rates(self._node_states(orbit), orbit.speed)
+        rates = self._rates(self.node_states(orbit), orbit.speed)
         basis = self.basis(orbit.degree)
         slopes = at_nodes(orbit.states / self.scales, basis.slopes)
         widths = np.diff(orbit.mesh)[:, None, None]
@@ -158,7 +158,7 @@ class Collocation:
 
     def gradients(self, orbit: Orbit) -> Gradients:
         """f and its derivatives at the nodes of an orbit; raises OrbitError."""
-        states = self._node_states(orbit)
+        states = self.node_states(orbit)
         rates = self._rates(states, orbit.speed)
         if self._differences:
             by_state = self._forward_differences(states, orbit.speed, rates)
@@ -239,7 +239,8 @@ class Collocation:
             result[:, :, column] = (self._rates(shifted, speed) - rates) / FORWARD_STEP
         return result
 
-    def _node_states(self, orbit: Orbit) -> Array:
+    def node_states(self, orbit: Orbit) -> Array:
+        """States (N m, n) at the nodes of an orbit, SI units."""
         values: Array = at_nodes(
             np.ascontiguousarray(orbit.states), self.basis(orbit.degree).values
         )

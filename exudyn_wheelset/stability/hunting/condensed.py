@@ -10,7 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from exudyn_wheelset.stability.hunting.orbit import OrbitError
-from exudyn_wheelset.stability.hunting.orbit_kernels import bordered_matrix, solve_condensed
+from exudyn_wheelset.stability.hunting.orbit_kernels import (
+    bordered_matrix,
+    solve_condensed,
+    speed_functional,
+)
 from exudyn_wheelset.systems.system import Array
 
 # Singular values below this part of the largest one are those of states that the equations leave
@@ -123,6 +127,14 @@ class Condensed:
             np.array(values),
         )
         return Direction(change, float(base[-2]), float(base[-1]))
+
+    def speed_weights(self, rows: list[Functional]) -> Array:
+        """Weights (N, m, n) of the defects in the speed of `solve` with both rows zero."""
+        border = self._border(rows)
+        weights: Array = speed_functional(
+            self.inverse, self.propagation, border.forms, border.solution
+        )
+        return weights
 
     def _border(self, rows: list[Functional]) -> Border:
         """The bordered system of two rows; the last one is kept."""

@@ -19,16 +19,16 @@ short length, so a step is also refused when the tangent turns by more than `tur
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.stability.hunting.aligned import Point, fold_at, point_at
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
-from exudyn_wheelset.stability.hunting.floquet import Multipliers
 from exudyn_wheelset.stability.hunting.folds import (
     Base,
     base_at,
@@ -43,21 +43,6 @@ from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 
 # The first orbit's speed is to lie this near to the Hopf point's, relative to it.
 FIRST_SPEED = 5e-3
-
-
-@dataclass(frozen=True, eq=False)
-class Point:
-    """A converged orbit of a branch.
-
-    multipliers     Floquet multipliers
-    slope           speed component of the unit tangent; its sign changes at a fold
-    is_fold         whether the speed has its extremum along the branch here
-    """
-
-    orbit: Orbit
-    multipliers: Multipliers
-    slope: float
-    is_fold: bool = False
 
 
 def hopf_start(
@@ -175,7 +160,7 @@ class _Follower:
         self.base = base_at(self.equations, orbit, condensed, row)
         self.first, self.away = self.base, False
         self.behind: Base | None = None
-        self._keep(self._point(self.base))
+        self._keep(point_at(self.equations, self.base))
         self.step = 0.3 * self._largest_step()
         self.size = self.equations.size(orbit)
 
@@ -234,8 +219,8 @@ class _Follower:
             fold = fold_between(equations, settings, base, new, length)
             turned = (fold.orbit.speed - base.orbit.speed) * (orbit.speed - fold.orbit.speed) <= 0.0
             if turned:
-                self._keep(self._point(fold, is_fold=True))
-        self._keep(self._point(new))
+                self._keep(fold_at(equations, fold, base.orbit.speed))
+        self._keep(point_at(self.equations, new))
         self._look_back(new)
         self.behind, self.base = base, new
         if end is not None:
@@ -258,7 +243,7 @@ class _Follower:
         if found is not None:
             fold, before_middle = found
             place = len(self.points) - (2 if before_middle else 1)
-            self.points.insert(place, self._point(fold, is_fold=True))
+            self.points.insert(place, point_at(self.equations, fold, is_fold=True))
 
     def _intervals_wanted(self, error: float) -> int:
         settings, count = self.settings, len(self.base.orbit.mesh) - 1
@@ -288,10 +273,6 @@ class _Follower:
         step = (self.high - self.low) / self.settings.speed_steps / equations.speed_unit
         by_speed = step / max(abs(base.tangent.speed), 1e-12)
         return min(by_size, by_speed)
-
-    def _point(self, base: Base, is_fold: bool = False) -> Point:
-        multipliers = self.equations.multipliers(base.orbit, base.condensed)
-        return Point(base.orbit, multipliers, base.tangent.speed, is_fold)
 
     def _keep(self, point: Point) -> None:
         self.points.append(point)

@@ -52,15 +52,13 @@ def corners_of(equations: Collocation, orbit: Orbit, gradients: Gradients) -> Ar
     worst = changes.reshape(len(changes), -1).max(axis=1)
     gaps = np.flatnonzero(worst > SUSPECT)
     gaps = np.sort(gaps[np.argsort(-worst[gaps], kind="stable")][:MOST])
-    found = []
-    for gap in gaps:
-        row, column = np.unravel_index(int(np.argmax(changes[gap])), ranges.shape)
-        ends = phases[gap : gap + 2]
-        values = entries[gap : gap + 2, row, column]
-        phase = _halved(equations, orbit, ends, values, int(row), int(column))
-        if phase is not None:
-            found.append(phase)
-    return np.array(found)
+    if not len(gaps):
+        return np.empty(0)
+    places = changes[gaps].reshape(len(gaps), -1).argmax(axis=1)
+    rows, columns = np.unravel_index(places, ranges.shape)
+    ends = np.stack([phases[gaps], phases[gaps + 1]])
+    values = np.stack([entries[gaps, rows, columns], entries[gaps + 1, rows, columns]])
+    return _halved(equations, orbit, ends, values, rows, columns)
 
 
 def _with_touches(
@@ -96,31 +94,33 @@ def _with_touches(
 
 
 def _halved(
-    equations: Collocation, orbit: Orbit, ends: Array, values: Array, row: int, column: int
-) -> float | None:
-    """Phase at which entry (row, column) of the Jacobian jumps between two ends; None if not."""
-    left, right = map(float, ends)
-    below, above = map(float, values)
-    whole = abs(above - below)
+    equations: Collocation, orbit: Orbit, ends: Array, values: Array, rows: Array, columns: Array
+) -> Array:
+    """Phases at which entries (rows, columns) of the Jacobian jump between two ends (2, k); those
+    that do not are left out."""
+    left, right = ends.copy()
+    below, above = values.copy()
+    whole = np.abs(above - below)
+    count = np.arange(len(left))
 
-    def entry(phase: float) -> float:
-        states = orbit._inside(np.array([phase, phase]))
-        states[1, column] += FORWARD_STEP * equations.scales[column]
-        rates = equations._rates(states, orbit.speed)[:, row]
-        return float(rates[1] - rates[0]) / FORWARD_STEP
+    def entries(phases: Array) -> Array:
+        states = orbit._inside(np.concatenate([phases, phases]))
+        states[len(count) + count, columns] += FORWARD_STEP * equations.scales[columns]
+        rates = equations._rates(states, orbit.speed)
+        change: Array = rates[len(count) + count, rows] - rates[count, rows]
+        return change / FORWARD_STEP
 
     for _ in range(HALVINGS):
         middle = 0.5 * (left + right)
-        value = entry(middle)
-        if abs(value - below) > abs(above - value):
-            right, above = middle, value
-        else:
-            left, below = middle, value
+        value = entries(middle)
+        lower = np.abs(value - below) > np.abs(above - value)
+        right, above = np.where(lower, middle, right), np.where(lower, value, above)
+        left, below = np.where(lower, left, middle), np.where(lower, below, value)
     middle = 0.5 * (left + right)
     # Beside the corner by more than what the differences smear.
     beside = APART * (right - left)
-    left, right = max(middle - beside, float(ends[0])), min(middle + beside, float(ends[1]))
-    return middle if abs(entry(right) - entry(left)) > LEFT * whole else None
+    left, right = np.maximum(middle - beside, ends[0]), np.minimum(middle + beside, ends[1])
+    return middle[np.abs(entries(right) - entries(left)) > LEFT * whole]
 
 
 def mesh_on(base: Array, corners: Array) -> Array:

@@ -149,7 +149,8 @@ def fold_near(system: DynamicSystem, orbit: Orbit, side: Side, tolerance: float 
     point = orbit_on_plane(system, orbit)
     step = FIRST_STEP * point.size
     for _ in range(12):
-        if point.slope == 0.0:
+        # A step with this slope would not change the speed by more.
+        if abs(point.slope) * step <= tolerance:
             return point
         move = -sign * np.sign(point.slope) * step
         other = orbit_on_plane(system, along(point, move), point.tangent, point)

@@ -20,11 +20,11 @@ from tqdm import tqdm
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.stability.hunting.aligned import Point
 from exudyn_wheelset.stability.hunting.branch import Branch, Fold, NamedColumns, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.continuation import (
     ContinuationSettings,
-    Point,
     follow,
     hopf_start,
 )
@@ -159,6 +159,7 @@ def gather(
                     "lowest" if beside > point.orbit.speed else "highest",
                     orbits[index],
                     system.source,
+                    point.sensitivity,
                 )
             )
     return Branch(

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.stability.hunting.continuation import Point
+from exudyn_wheelset.stability.hunting.aligned import Point
 from exudyn_wheelset.systems.system import DynamicSystem
 
 # The change of size, periods simulated, and those at the beginning that hold what the change stirs.

@@ -105,6 +105,30 @@ def solve_condensed(inverse, propagation, points, forms, solution, defects, valu
 
 
 @compiled
+def speed_functional(inverse, propagation, forms, solution):
+    """Weights (N, m, n) of the defects in the speed that `solve_condensed` gives, by the transposed
+    equations."""
+    intervals, rows, size = propagation.shape
+    count = forms.shape[2]
+    last = solution[size + 1]
+    weights = np.empty((intervals, count - 1, size))
+    carried = -last[:size]
+    for i in range(intervals - 1, -1, -1):
+        felt = np.empty(rows)
+        for j in range(1, count):
+            for a in range(size):
+                felt[(j - 1) * size + a] = -(
+                    last[size] * forms[0, i, j, a] + last[size + 1] * forms[1, i, j, a]
+                )
+        felt[rows - size :] += carried
+        weights[i] = -np.dot(inverse[i].T, felt).reshape(count - 1, size)
+        carried = np.dot(propagation[i].T, felt)
+        for a in range(size):
+            carried[a] -= last[size] * forms[0, i, 0, a] + last[size + 1] * forms[1, i, 0, a]
+    return weights
+
+
+@compiled
 def weighed(orbit, widths, gram, shares, odd):
     """Coefficients (N, m + 1, n) of the covariance with an orbit (N, m + 1, n) over the phase.
 

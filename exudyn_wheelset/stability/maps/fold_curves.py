@@ -102,7 +102,7 @@ class FoldWorld:
             return known[1]
         point, orbit = base.point, base.point.orbit
         equations = point.equations
-        states = equations._node_states(orbit)
+        states = equations.node_states(orbit)
         ends = [
             float(np.clip(base.parameter + sign * STEP * self.span, self.low, self.high))
             for sign in (1.0, -1.0)
