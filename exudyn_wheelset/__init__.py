@@ -98,6 +98,7 @@ _PLACES = {
     "save_vehicle": "vehicles.files",
     "simulate": "systems.simulation",
     "stability_map": "stability.maps.stability_map",
+    "switch_branch": "stability.hunting.branch_switching",
     "Study": "studies",
     "study": "studies",
     "SteadyCurve": "systems.steady_curve",

@@ -66,6 +66,16 @@ def switch_branch(
     doubling"; speeds (low, high) [m/s], default those of the branch; settings as for
     `limit_cycles`. The speed of `change` is that of the first branch; `record["leaves_at"]` says
     where the multiplier passes. Raises AnalysisError for a torus, and where no branch is found.
+
+    >>> import numpy as np
+    >>> from exudyn_wheelset import FunctionSystem, hopf_points, limit_cycles, switch_branch
+    >>> def lure(x, alpha):
+    ...     return np.array([x[1], x[2], -alpha * x[2] - x[1] - x[0] + x[0] ** 2])
+    >>> system = FunctionSystem("Lur'e", lure, ("x", "v", "a"), (1.0, 1.0, 1.0))
+    >>> branch = limit_cycles(system, hopf_points(system, 0.8, 1.3)[0], (0.6, 1.1))
+    >>> double = switch_branch(system, branch, branch.changes[0])
+    >>> round(double.record["leaves_at"], 3)
+    0.63
     """
     system = as_system(vehicle)
     if change.kind == "torus":
