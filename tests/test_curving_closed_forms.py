@@ -319,9 +319,9 @@ def test_mirrored_vehicles_on_mirrored_track():
     rough = Irregularity.from_psd("ERRI B176 low", 5, length=120.0, fade_in=20.0)
     coach = COACH.on(replace(COACH.track, layout=layout, irregularity=rough))
     one, other = (simulate(vehicle, 20.0, 2.0) for vehicle in (coach, coach.mirrored()))
-    # Rounding, grown by the motion.
-    assert one.y == pytest.approx(-other.y, abs=1e-8)
-    assert pytest.approx(other.Q[:, :, ::-1], rel=1e-5) == one.Q
+    # Rounding is 2e-16 m and 4e-12 of the forces.
+    assert one.y == pytest.approx(-other.y, abs=1e-9 * np.abs(one.y).max())
+    assert pytest.approx(other.Q[:, :, ::-1], abs=1e-9 * np.abs(one.Q).max()) == one.Q
 
 
 def test_a_suspended_body_leans_as_its_springs_say():

@@ -109,9 +109,14 @@ def test_the_mirrored_vehicle_moves_as_the_mirror_shows():
         state = system.initial_state(40.0)
         state[system.state_names.index("front leading: y [m]")] += sign * 1e-3
         runs.append(flips * system.simulate(state, 40.0, np.linspace(0.0, 1.0, 51)))
-    scales = np.abs(runs[0]).max(axis=0) + 1e-6
-    assert np.abs((runs[1] - runs[0]) / scales).max() < 1e-6
-    assert runs[1] == pytest.approx(runs[0], abs=1e-9 * max(1.0, np.abs(runs[0]).max()))
+    apart = np.abs(runs[1] - runs[0]).max(axis=0)
+    largest = np.abs(runs[0]).max(axis=0)
+    # Rounding is 3e-11 of the scales (mm, mrad); what moves by a twentieth of them is compared with
+    # itself, the rest (4e-8 m/s of a rear wheelset) is below what rounding leaves of a sum.
+    assert (apart / system.scales).max() < 1e-9
+    moves = largest > 0.05 * system.scales
+    assert moves.sum() > 20
+    assert (apart[moves] / largest[moves]).max() < 1e-9
 
 
 def test_mirroring_twice_is_the_same():
