@@ -5,9 +5,12 @@ Every load is computed here from weights and levers.
 
 from __future__ import annotations
 
+import re
+
 import exudyn as exu
 import numpy as np
 import pytest
+from test_random_vehicles import random_vehicle
 
 from exudyn_wheelset import (
     AirSpring,
@@ -21,6 +24,7 @@ from exudyn_wheelset import (
     Track,
     VehicleBuilder,
     Wheelset,
+    WheelsetWarning,
     catalogue,
     static_equilibrium,
     with_free_lengths,
@@ -194,3 +198,13 @@ def test_several_vehicles_in_one_system_have_names_of_their_own():
         for items in (one, other)
     ]
     assert distance[1] - distance[0] == pytest.approx(30.0)
+
+
+@pytest.mark.parametrize("seed", [66, 233])
+def test_a_vehicle_that_finds_no_rest_is_told_with_its_largest_acceleration(seed):
+    """A body beside the middle on cones, flanges without play (tests/test_random_vehicles.py)."""
+    with pytest.warns(WheelsetWarning, match="no place of rest was found nearby") as told:
+        rest = static_equilibrium(random_vehicle(seed))
+    assert rest.residual > 1e-3
+    said = re.search(r"is left with (\S+) m/s", str(told[0].message))
+    assert float(said[1]) == pytest.approx(rest.residual, rel=1e-2)

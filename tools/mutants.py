@@ -29,7 +29,7 @@ SWAPPED = {
     "atan": "tanh",
     "maximum": "minimum",
 }
-RANGES = ("CreepParameter",)
+RANGES = ("CreepParameter", "number", "numbers", "positive")
 LEAST_CONSTANT = 1.1e-3
 
 
