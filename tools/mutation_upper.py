@@ -110,13 +110,12 @@ UPPER_GROUPS = {
             "fold_points corners branch symmetry limit_cycles",
         ),
         (
-            "test_limit_cycles_van_der_pol.py",
             "test_normal_form_hopf_fold.py",
+            "test_limit_cycles_van_der_pol.py",
             "test_settled_branch.py",
             "test_limit_cycles_stiff_contact.py",
-            "test_cooperrider_nonlinear_by_three_methods.py",
         ),
-        deselected="adapted_mesh or descent or critical_disturbance or branch_over_mu",
+        deselected="adapted_mesh or descent or critical_disturbance or branch_over_mu or order_of",
     ),
     "settling": Group(
         _under(
@@ -139,9 +138,8 @@ UPPER_GROUPS = {
             "test_normal_form_hopf_fold.py",
             "test_limit_cycles_endings.py",
             "test_descent_by_truck.py",
-            "test_limit_cycles_bogie.py",
         ),
-        deselected="disturbance_runs or against_simulation or exudyn_model",
+        deselected="disturbance_runs or convergence_at_the or speed_range",
     ),
     "linear": Group(
         _under(
