@@ -70,6 +70,7 @@ _PLACES = {
     "contact_energy": "contact.wheelset_contact",
     "contact_forces": "contact.wheelset_contact",
     "contact_geometry": "geometry.rigid",
+    "contact_view": "front.contact_view",
     "create_wheelset": "coupling.create",
     "creep_force": "creep",
     "critical_disturbance": "stability.hunting.disturbance",

@@ -17,7 +17,7 @@ from typing import Any
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.command.geometry import (
     Pair,
-    add_options,
+    add_pair_options,
     examine,
     kept,
     pair,
@@ -61,7 +61,7 @@ def pairs_from(arguments: argparse.Namespace, parser: argparse.ArgumentParser) -
 def main(argv: Sequence[str] | None = None) -> int:
     """Run from the command line; exit status."""
     parser = script_parser(str(__doc__).splitlines()[0], settings=False)
-    add_options(parser, defaults=False)
+    add_pair_options(parser, defaults=False)
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
         return kept(pairs_from(arguments, parser), arguments)

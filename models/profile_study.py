@@ -29,7 +29,13 @@ from exudyn_wheelset import nonlinear_critical_speed
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
-from exudyn_wheelset.front.script import inclination_of, run_script, script_parser, smoothing_of
+from exudyn_wheelset.front.script import (
+    inclination_of,
+    own_options,
+    run_script,
+    script_parser,
+    smoothing_of,
+)
 from exudyn_wheelset.front.vehicle_options import ChosenVehicle, named_vehicle
 from exudyn_wheelset.geometry.conicity import equivalent_conicity
 from exudyn_wheelset.geometry.rolling_radius import rolling_radius_curve
@@ -142,7 +148,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     add("--processes", type=int, help="default: as many as there are cores")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        values = {name: value for name, value in vars(arguments).items() if name != "json"}
+        values = own_options(arguments)
         if not values["wheels"] or not values["rails"]:
             raise WheelsetError("give folders of profiles: --wheels FOLDER --rails FOLDER")
         return run(**values)

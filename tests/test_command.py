@@ -180,6 +180,19 @@ def test_info_of_all_kinds(capsys):
     assert run(capsys, "warm-up")["seconds"] >= 0.0
 
 
+def test_remarks_are_told_when_asked_for(capsys, tmp_path):
+    """A file in inches is remarked on at INFO: told with --verbose, and only then."""
+    from exudyn_wheelset import load_profile, save_profile
+
+    path = save_profile(load_profile("S1002"), tmp_path / "wheel.prw")
+    words = ["conicity", "--wheel", str(path), "--amplitudes-mm", "3"]
+    assert main(words) == 0
+    assert capsys.readouterr().err == ""
+    assert main([*words, "--verbose"]) == 0
+    said = capsys.readouterr().err
+    assert said.startswith("exudyn-wheelset conicity: ") and str(path) in said
+
+
 def test_nothing_is_written_without_out(capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     run(capsys, "conicity", "--amplitudes-mm", 3)

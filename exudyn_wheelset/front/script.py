@@ -9,7 +9,8 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.results.files import plain
 from exudyn_wheelset.results.motion import Motion
 
+_LOG = logging.getLogger(__name__)
 DEFAULT_OUT = Path("runs") / "out"
 
 
@@ -61,6 +63,8 @@ def add_common_options(
 ) -> None:
     """Add --json, --out and, unless `settings` is False, --settings; out: default of --out."""
     parser.add_argument("--json", action="store_true", help="print only the numbers, as JSON")
+    words = "tell remarks as well: what profile readers have done, how long kernels took"
+    parser.add_argument("--verbose", action="store_true", help=words)
     where = "directory for figures and data" + ("" if out else "; nothing is written without it")
     parser.add_argument("--out", type=Path, default=out, metavar="FOLDER", help=where)
     if settings:
@@ -74,16 +78,20 @@ def add_common_options(
         )
 
 
+def own_options(arguments: argparse.Namespace) -> dict[str, Any]:
+    """Values of a script's own options by name, --json and --verbose left out."""
+    return {name: v for name, v in vars(arguments).items() if name not in ("json", "verbose")}
+
+
 def get_ready(arguments: argparse.Namespace) -> exu.SimulationSettings | None:
     """Load the settings of --settings, None where it names no file, and compile the kernels.
 
-    Without --json it says how long the kernels took. Raises SettingsError for a file that is wrong.
+    With --verbose it says how long the kernels took. Raises SettingsError for a file that is wrong.
     """
     path = getattr(arguments, "settings", None)
     settings = None if path is None else load_settings(path)
     seconds = warm_up()
-    if not arguments.json:
-        print(f"kernels ready in {seconds:.1f} s", file=sys.stderr)
+    _LOG.info("kernels ready in %.1f s", seconds)
     return settings
 
 
@@ -233,11 +241,36 @@ def run_parsed(
     show: Callable[[dict[str, Any]], None] | None = None,
 ) -> int:
     """As `run_script`, with the command line already parsed; prog: name of the script."""
+    # With --json only numbers on one stream and errors on the other: no word of kernels compiled.
+    quiet = logging.ERROR if arguments.json else logging.WARNING
+    with _remarks_of(prog, logging.INFO if arguments.verbose else quiet):
+        return _run_parsed(run, arguments, prog, show)
+
+
+@contextmanager
+def _remarks_of(prog: str, level: int) -> Iterator[None]:
+    """Let the package's log speak on standard error as lines of a script, from `level` on."""
     log = logging.getLogger("exudyn_wheelset")
-    level = log.level
-    if arguments.json:
-        # Only numbers on one stream and errors on the other: no word of kernels being compiled.
-        log.setLevel(logging.ERROR)
+    before, passed_on = log.level, log.propagate
+    handler = logging.StreamHandler(sys.stderr)
+    handler.setFormatter(logging.Formatter(f"{prog}: %(message)s"))
+    log.addHandler(handler)
+    log.setLevel(level)
+    log.propagate = False
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(before)
+        log.propagate = passed_on
+
+
+def _run_parsed(
+    run: Callable[[argparse.Namespace], dict[str, Any]],
+    arguments: argparse.Namespace,
+    prog: str,
+    show: Callable[[dict[str, Any]], None] | None,
+) -> int:
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _shown_by(prog, warnings.showwarning)
@@ -267,8 +300,6 @@ def run_parsed(
     except MemoryError:
         print(f"{prog}: not enough memory for so many numbers", file=sys.stderr)
         return 2
-    finally:
-        log.setLevel(level)
     return 0
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.front.contact_plots import SHIFT_TEXTS, keep_conicity
-from exudyn_wheelset.front.script import add_profile_options, script_profile
+from exudyn_wheelset.front.script import add_profile_options, own_options, script_profile
 from exudyn_wheelset.front.tables import print_conicity
 from exudyn_wheelset.geometry.conicity import METHODS
 from exudyn_wheelset.geometry.rolling_pair import rolling_pair
@@ -106,9 +106,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def compute(arguments: argparse.Namespace) -> dict[str, Any]:
     """Numbers of the pair that the options name."""
-    values = vars(arguments).copy()
+    values = own_options(arguments)
     smoothing = values.pop("smoothing")
-    del values["json"]
     for name in ("wheel", "rail", "right_wheel", "right_rail"):
         values[name] = script_profile(values[name], name.removeprefix("right_"), smoothing)
     return run(**values)

@@ -14,6 +14,7 @@ from exudyn_wheelset.creep import creep_force
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
+from exudyn_wheelset.front.script import own_options
 from exudyn_wheelset.front.values import values_of
 from exudyn_wheelset.front.vehicle_options import CreepWord, law_and_parameters
 from exudyn_wheelset.results.files import write_columns
@@ -90,9 +91,8 @@ def run(
 
 def compute(arguments: argparse.Namespace) -> dict[str, Any]:
     """The numbers of the options; with --out, a figure and a table of each law."""
-    values = {name: value for name, value in vars(arguments).items() if value is not None}
+    values = {name: v for name, v in own_options(arguments).items() if v is not None}
     out, laws = values.pop("out", None), values.pop("creep", [law_and_parameters("exact-table")])
-    del values["json"]
     if not any(name in values for name in SWEPT):
         values["creep_x"] = np.linspace(0.0, 0.01, 11)
     numbers = run(laws, **values)

@@ -12,6 +12,7 @@ from tqdm import tqdm
 
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.front.contact_view import contact_view
 from exudyn_wheelset.front.geometry_plots import keep_geometry
 from exudyn_wheelset.front.output import write_json
 from exudyn_wheelset.front.plots import pair_name
@@ -27,6 +28,7 @@ ABOUT = (
 )
 EXAMPLES = (
     "geometry --wheel S1002 --rail UIC60 --out figures",
+    "geometry --wheel S1002 --show",
     "geometry --wheel measured/axle3.whl --smoothing auto --rail UIC60 --gauge 1.437 --json",
 )
 SETTINGS = False
@@ -84,7 +86,14 @@ def results(pairs: Sequence[Pair], progress: bool = False) -> list[Result]:
     return [examine(one) for one in tqdm(pairs, disable=not progress, unit="pair")]
 
 
-def add_options(parser: argparse.ArgumentParser, defaults: bool = True) -> None:
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Those of a pair, and whether to look at it."""
+    add_pair_options(parser)
+    words = "open a window with sliders for shift and yaw"
+    parser.add_argument("--show", action="store_true", help=words)
+
+
+def add_pair_options(parser: argparse.ArgumentParser, defaults: bool = True) -> None:
     """Profiles, track, and how far to look; defaults: of the profiles, S1002 on UIC60."""
     add_profile_options(parser, defaults=defaults)
     add = parser.add_argument
@@ -97,7 +106,20 @@ def compute(arguments: argparse.Namespace) -> dict[str, Any]:
     """Numbers of the pair that the options name, by its name."""
     given = profiles_from(arguments).changes
     own = {name: getattr(arguments, name) for name in ("radius", "tape_half_distance")}
-    return kept([pair(**given, **own, half_range=arguments.half_range)], arguments)
+    chosen = pair(**given, **own, half_range=arguments.half_range)
+    if arguments.show:
+        _shown(chosen)
+    return kept([chosen], arguments)
+
+
+def _shown(chosen: Pair) -> None:
+    """Open a window, where there is a display."""
+    import matplotlib.pyplot as plt
+
+    view = contact_view(chosen.wheelset, chosen.track, max(0.012, chosen.half_range))
+    if plt.get_backend().lower() == "agg":
+        raise WheelsetError("--show needs a display; --out FOLDER keeps figures without one")
+    view.show()
 
 
 def kept(pairs: Sequence[Pair], arguments: argparse.Namespace) -> dict[str, Any]:
