@@ -13,7 +13,7 @@ from api_pages import write_api_pages  # noqa: E402
 from exudyn_wheelset import __version__  # noqa: E402
 
 project = "exudyn_wheelset"
-author = "the authors of exudyn_wheelset"
+author = "the exudyn_wheelset authors"
 release = version = __version__
 extensions = [
     "myst_parser",

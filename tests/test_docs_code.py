@@ -21,7 +21,9 @@ from exudyn_wheelset.front.command import PROG, TASKS, task_parser
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
-BLOCK = re.compile(r"(?:<!-- (not run: .*?) -->\n)?^```(\w*)\n(.*?)^```", flags=re.S | re.M)
+BLOCK = re.compile(
+    r"(?:<!-- (not run: .*?) -->\n)?^```(\w*)\n(.*?)^```\n(?:\n((?:    .*\n)+))?", flags=re.S | re.M
+)
 # Run, with more asked of it, by a test of its own.
 ELSEWHERE = {"your-own-vehicle.md": "tests/test_your_own_vehicle.py"}
 # Diagrams and maps of whole pages.
@@ -29,9 +31,14 @@ SLOW = {"stability-maps.md", "track.md"}
 
 
 def blocks(page, language):
-    """Blocks of a language on a page, without those that say why they are not run."""
-    found = BLOCK.findall(page.read_text(encoding="utf-8"))
-    return [code for reason, kind, code in found if kind == language and not reason]
+    """Blocks of a language on a page, without those that say why they are not run, each with the
+    lines set in below it: what it prints, or commands."""
+    found = BLOCK.findall(page.read_text(encoding="utf-8") + "\n")
+    return [
+        (code, [line.strip() for line in below.splitlines() if not line.strip().startswith(PROG)])
+        for reason, kind, code, below in found
+        if kind == language and not reason
+    ]
 
 
 def name(page):
@@ -66,15 +73,18 @@ def folder(tmp_path, monkeypatch):
 @pytest.mark.parametrize("page", with_code("python"))
 def test_python_of_a_page_runs(page, folder):
     names = {"__name__": page.stem}
-    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore", WheelsetWarning)
-        for code in blocks(page, "python"):
-            exec(compile(code, name(page), "exec"), names)
+        for code, expected in blocks(page, "python"):
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                exec(compile(code, name(page), "exec"), names)
+            said = [line.strip() for line in printed.getvalue().splitlines()]
+            assert [line for line in expected if line not in said] == [], said
 
 
 @pytest.mark.parametrize("page", with_code("toml"))
 def test_toml_of_a_page_is_a_vehicle(page, folder):
-    for code in blocks(page, "toml"):
+    for code, _ in blocks(page, "toml"):
         path = folder / "vehicle.toml"
         path.write_text(code, encoding="utf-8")
         load_vehicle(path, check=False)

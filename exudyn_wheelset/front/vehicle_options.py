@@ -133,7 +133,7 @@ def add_vehicle_options(parser: argparse.ArgumentParser, default: str) -> None:
         default=[],
         metavar="PATH=VALUE",
         help="change any number of the vehicle by its path, such as bodies.body.mass=30e3 or "
-        '"connections.yaw damper.damping=2e5"; may be given several times, and '
+        '"connections.front left secondary.damping.y=5e4"; may be given several times, and '
         "`exudyn-wheelset info VEHICLE` lists the paths",
     )
 

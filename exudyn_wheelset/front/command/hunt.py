@@ -48,7 +48,7 @@ ABOUT = (
 EXAMPLES = (
     "hunt --vehicle cooperrider",
     "hunt --vehicle s1002 --friction 0.2 --descent --out figures",
-    "hunt --vehicle my_truck.toml --set 'connections.yaw damper.damping=2e5' --json",
+    "hunt --vehicle my_truck.toml --set 'connections.secondary.damping.y=50e3' --json",
 )
 SETTINGS = True
 show = print_diagram

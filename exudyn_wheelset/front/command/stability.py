@@ -31,7 +31,7 @@ ABOUT = "The linearised vehicle. With --out: root locus (PNG) and numbers (JSON)
 EXAMPLES = (
     "stability --vehicle dtu_car",
     "stability --vehicle truck --creep exact-table --friction 0.4 --wheel worn.whl --json",
-    "stability --vehicle dtu_car --set 'connections.yaw damper.damping=2e5' --speeds 60 80 100",
+    "stability --vehicle dtu_car --set 'connections.secondary.damping.y=50e3' --speeds 60 80 100",
 )
 SETTINGS = False
 
