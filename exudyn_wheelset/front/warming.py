@@ -14,6 +14,12 @@ def warm_up(everything: bool = False, progress: bool = False) -> float:
     vehicles and their analyses as well; otherwise they are compiled at their first use.
     progress: shows a bar. Kernels are compiled once after an installation and kept in the user's
     cache folder (NUMBA_CACHE_DIR names another); loading them takes a few tenths of a second.
+
+    Examples
+    --------
+    >>> from exudyn_wheelset import warm_up
+    >>> warm_up() > 0.0
+    True
     """
     start = time.perf_counter()
     steps = {"contact of a wheelset": _contact}

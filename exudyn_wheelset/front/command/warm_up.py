@@ -21,7 +21,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def compute(arguments: argparse.Namespace) -> dict[str, Any]:
     """Seconds that it took."""
-    return {"seconds": warm_up(everything=True, progress=True)}
+    return {"seconds": warm_up(everything=True, progress=not arguments.json)}
 
 
 def show(numbers: dict[str, Any]) -> None:
