@@ -293,6 +293,7 @@ COMMAND = {
     "study --vary friction=0.1:0.3": ["0.1:0.3", "LOW:HIGH:COUNT"],
     "study --vary wheel=/nowhere/*.whl": ["/nowhere", "no file"],
     "study --vary friction": ["friction", "values"],
+    "study --vary friction=0.1 --vary friction=0.2": ["friction", "twice", "in one"],
     "simulate --speed 0": ["0", "m/s"],
     "simulate --speed 500": ["500", "200"],
     "simulate --duration 0": ["0", "s"],

@@ -74,7 +74,7 @@ def _creep_laws() -> None:
 
 
 def _vehicles() -> None:
-    from exudyn_wheelset.catalogue import dtu_truck
+    from exudyn_wheelset.catalogue.truck import dtu_truck
     from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
     from exudyn_wheelset.systems.simulation import simulate
 

@@ -115,6 +115,10 @@ def compute(arguments: argparse.Namespace) -> dict[str, Any]:
         raise WheelsetError(
             "give what varies: --vary friction=0.1,0.3 or --vary gauge=1.432:1.438:7"
         )
+    names = [name for name, _ in arguments.vary]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise WheelsetError(f"--vary {twice[0]} is given twice: give all its values in one")
     chosen = chosen_vehicle(arguments)
     # What is wrong with the vehicle itself is said before anything is computed.
     chosen.vehicle()
