@@ -7,9 +7,10 @@ Run `python benchmarks/analyses.py`; --json prints the numbers only, --descent a
 (b) linear critical speed from the description (model built anew each time) and from a guess;
 (c) bifurcation diagrams of the S1002 wheelset, the truck and the DTU car: seconds, orbits;
 (d) motion of the DTU car: compiled equations and Exudyn's solver, times faster than real time;
-(e) with --descent, the DTU car at falling speed in steps of 0.5 m/s.
+(e) the DTU car in one Exudyn object against Exudyn's loads;
+(f) with --descent, the DTU car at falling speed in steps of 0.5 m/s.
 
-Every figure but (c) and (e) is the least of some turns, since machines are shared.
+Every figure but (c) and (f) is the least of some turns, since machines are shared.
 """
 
 from __future__ import annotations
@@ -21,7 +22,9 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+import exudyn as exu
 import numpy as np
+from exudyn.utilities import NodeGenericODE2, ObjectGenericODE2
 
 from exudyn_wheelset import (
     ExudynSystem,
@@ -32,6 +35,7 @@ from exudyn_wheelset import (
     linear_critical_speed,
     quasi_static_descent,
 )
+from exudyn_wheelset.coupling.running import copied_settings
 from exudyn_wheelset.systems.system import DynamicSystem, as_system
 
 VEHICLES = ("cooperrider_bogie_3d", "three_axle_truck", "dtu_car", "manchester_coach")
@@ -117,6 +121,54 @@ def motion(law: str) -> dict[str, float]:
     return {**result, "compiled_over_exudyn": result["compiled"] / result["exudyn"]}
 
 
+def one_object(law: str) -> dict[str, float]:
+    """The DTU car by Exudyn's loads, and by one object of Exudyn that computes all its forces.
+
+    The object is a generic one of as many coordinates, whose function evaluates the whole car by
+    its compiled equations at states of its motion, and hands back zeros: the cost without the car.
+    """
+    vehicle, step, duration = catalogue.dtu_car(creep=law), 5e-4, 0.5
+    loads = as_system(vehicle, step=step, solver_type="RK44")
+    whole = as_system(vehicle, step=step)
+    start = whole.initial_state(45.0)
+    start[list(whole.lateral_indices)] += 2e-3
+    states = whole.simulate(start, 45.0, np.arange(1001) * step)
+    count = sum(len(loads.mbs.systemData.GetNodeLTGODE2(node)) for node in loads.runner.nodes)
+    calls = iter(range(10**9))
+
+    def force(mbs: Any, t: float, item: int, q: Any, q_t: Any) -> Any:
+        return 0.0 * whole.compiled.rate(states[next(calls) % 1000])[-count:]
+
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    zeros = [0.0] * count
+    node = mbs.AddNode(
+        NodeGenericODE2(
+            numberOfODE2Coordinates=count,
+            referenceCoordinates=zeros,
+            initialCoordinates=zeros,
+            initialCoordinates_t=zeros,
+        )
+    )
+    masses = 1e3 * np.eye(count)
+    mbs.AddObject(ObjectGenericODE2(nodeNumbers=[node], massMatrix=masses, forceUserFunction=force))
+    mbs.Assemble()
+    settings = copied_settings(None)
+    settings.timeIntegration.endTime = duration
+    settings.timeIntegration.numberOfSteps = round(duration / step)
+
+    def run_object() -> None:
+        mbs.SolveDynamic(settings, solverType=exu.DynamicSolverType.RK44)
+
+    times = np.linspace(0.0, duration, 126)
+    by_loads = least(lambda: loads.simulate(start, 45.0, times), turns=4)
+    compiled = least(lambda: whole.simulate(start, 45.0, times), turns=4)
+    return {
+        "loads_over_object": by_loads / least(run_object, turns=4),
+        "loads_over_compiled": by_loads / compiled,
+    }
+
+
 def descent() -> dict[str, float]:
     """CPU time of descents of the DTU car: through twenty speeds, and to the end of its hunting.
 
@@ -141,6 +193,7 @@ def measure(with_descent: bool = False) -> dict[str, Any]:
         "critical_speeds": {name: critical_speeds(name) for name in VEHICLES},
         "diagrams": {name: diagram(name) for name in ("s1002", "truck", "dtu_car")},
         "motion_of_the_car": {law: motion(law) for law in LAWS},
+        "car_in_one_object": {law: one_object(law) for law in LAWS},
     }
     if with_descent:
         numbers["descent_of_the_car"] = {"dtu_car": descent()}

@@ -62,7 +62,7 @@ class Ledger:
 
 def test_a_cycle_loses_the_work_of_friction_creep_and_dampers():
     """Over a second of hunting, more than a cycle; asked to 1e-3 of what is taken."""
-    speed, settling = 26.0, 3.0
+    speed, settling = 45.0, 3.0
     car = catalogue.freight_car(normal="energy", damping=0.0)
     system = as_system(car)
     start = shifted_state(system, speed, 4e-3)
@@ -73,6 +73,6 @@ def test_a_cycle_loses_the_work_of_friction_creep_and_dampers():
     energy, connections, creep, drawn = rows.T
     taken = cumulative_simpson(connections + creep, x=times, initial=0.0)
     given = cumulative_simpson(drawn, x=times, initial=0.0)
-    assert cumulative_simpson(connections, x=times, initial=0.0)[-1] > 0.1 * taken[-1]
+    assert cumulative_simpson(connections, x=times, initial=0.0)[-1] > 0.02 * taken[-1]
     left = energy - energy[0] + taken - given
     assert np.abs(left).max() < 1e-3 * taken[-1]

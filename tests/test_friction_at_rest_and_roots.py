@@ -15,6 +15,7 @@ import pytest
 from driven_element import DrivenElement
 
 from exudyn_wheelset import (
+    Bushing,
     CentrePlate,
     Contact,
     ExudynSystem,
@@ -30,6 +31,7 @@ from exudyn_wheelset import (
     static_equilibrium,
     with_free_lengths,
 )
+from exudyn_wheelset.stability.linear.linearisation import hunting_mode
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles.description import Load
 from exudyn_wheelset.vehicles.rest import find_rest
@@ -175,7 +177,8 @@ def with_springs_for_wedges(car, across, damping=0.0):
     """The car with a spring (0, across, across) in the place of each wedge, beside its own spring.
 
     That one is a closed side bearer without friction: it pushes along the frame's vertical, as the
-    wedge's spring does.
+    wedge's spring does. The face on its column is a bushing: its stiffness along the track and a
+    disc's, k R^2/4, against turning about y and z, with the damping of the face.
     """
     connections = []
     for one in car.connections:
@@ -184,9 +187,30 @@ def with_springs_for_wedges(car, across, damping=0.0):
             pushing = SideBearer(0.0, wedge.spring, 0.0, force=wedge.spring_force)
             connections.append(replace(one, element=pushing))
             spring = Spring((0.0, across, across), (0.0, damping, damping))
-            one = replace(one, element=spring, name=one.name + " spring", preload=(0.0, 0.0, 0.0))
+            held, turned = wedge.along, 0.25 * wedge.along * wedge.radius**2
+            face = np.array([held, 0.0, 0.0, 0.0, turned, turned])
+            column = Bushing(tuple(face), tuple(wedge.damping_time * face))
+            for element, name in ((column, "column"), (spring, "spring")):
+                one = replace(
+                    one, element=element, name=f"{one.name} {name}", preload=(0.0, 0.0, 0.0)
+                )
+                connections.append(one)
+            continue
         connections.append(one)
     return replace(car, connections=tuple(connections))
+
+
+def without_faces(car):
+    """The car whose wedges let the bolster slide along the track and turn in its columns."""
+    return replace(
+        car,
+        connections=tuple(
+            replace(one, element=replace(one.element, along=0.0, radius=0.0))
+            if isinstance(one.element, FrictionWedge)
+            else one
+            for one in car.connections
+        ),
+    )
 
 
 @pytest.mark.parametrize("loaded", [True, False])
@@ -199,25 +223,31 @@ def test_wedges_without_friction_are_their_springs(loaded):
 @pytest.mark.parametrize("friction", [1e3, 1e8])
 @pytest.mark.parametrize("loaded", [True, False])
 def test_wedges_of_endless_friction_hold_the_bolster_rigidly(loaded, friction):
-    car = catalogue.freight_car(loaded, wedge_friction=friction)
+    car = without_faces(catalogue.freight_car(loaded, wedge_friction=friction))
     rigid = with_springs_for_wedges(car, 1e10)
     assert_same_roots(roots(car), roots(rigid))
 
 
 @pytest.mark.parametrize("loaded", [True, False])
 def test_stuck_car_has_the_roots_of_the_holds_stiffness(loaded):
-    """Springs of k = mu N/presliding with dampers k T in the place of all wedges."""
-    car = catalogue.freight_car(loaded)
-    wedge = next(c.element for c in car.connections if isinstance(c.element, FrictionWedge))
-    stiffness = wedge.friction * wedge.column_force / wedge.presliding
-    damped = with_springs_for_wedges(car, stiffness, stiffness * wedge.damping_time)
-    assert_same_roots(roots(car), roots(damped), 1e-5)
+    """Springs of k = mu N/presliding with dampers k T in the place of all wedges.
+
+    Where the faces hold along the track the column force, which follows the bolster's height and
+    the vertical hold, moves a frame a little in pitch too, which bushings do not: below 0.5 %.
+    """
+    shipped = catalogue.freight_car(loaded)
+    for car, part in ((without_faces(shipped), 1e-5), (shipped, 5e-3)):
+        wedge = next(c.element for c in car.connections if isinstance(c.element, FrictionWedge))
+        stiffness = wedge.friction * wedge.column_force / wedge.presliding
+        damped = with_springs_for_wedges(car, stiffness, stiffness * wedge.damping_time)
+        assert_same_roots(roots(car), roots(damped), part)
 
 
 def test_the_load_lowers_the_stuck_cars_critical_speed_by_its_inertia():
-    """The load's weight as a force on the empty body leaves the empty car its speed (docs).
+    """The load's weight as a force on the empty body leaves the empty car's speed nearly (docs).
 
-    Its mass takes it down by a third and more.
+    Its mass takes it down by a quarter. Nearer to the loaded car's body the speed falls with each
+    part of the inertia: kinematic motion shakes the body, whose inertia pulls at the trucks.
     """
     loaded, empty = catalogue.freight_car(True), catalogue.freight_car(False)
     heavy, light = loaded.part("body"), empty.part("body")
@@ -227,9 +257,31 @@ def test_the_load_lowers_the_stuck_cars_critical_speed_by_its_inertia():
         bodies=tuple(swapped if body == heavy else body for body in loaded.bodies),
         loads=(Load("body", (0.0, 0.0, 9.81 * (light.mass - heavy.mass)), heavy.centre),),
     )
-    speeds = [linear_critical_speed(car, 15.0, 45.0, points=11) for car in (loaded, empty, pressed)]
-    assert speeds[2] == pytest.approx(float(speeds[1]), rel=0.02)
-    assert speeds[0] < 0.67 * speeds[1]
+    speeds = [linear_critical_speed(car, 30.0, 70.0, points=11) for car in (loaded, empty, pressed)]
+    assert speeds[2] == pytest.approx(float(speeds[1]), rel=0.05)
+    assert speeds[0] < 0.78 * speeds[1]
+
+
+def test_wedges_that_hold_along_the_track_yaw_the_bolster_with_its_wheelsets():
+    """A three-piece truck warps as a parallelogram: axles and bolster turn together.
+
+    In the critical mode of the empty car the bolster yaws as its wheelsets do, to a fifth; with
+    wedges that let it slide along the track it hardly yaws, and the speed is a third lower.
+    """
+    car = catalogue.freight_car(False)
+    loose = without_faces(car)
+    shares, speeds = [], []
+    for one in (car, loose):
+        critical = linear_critical_speed(one, 25.0, 70.0, points=11)
+        linear = linearise(one, critical.speed)
+        names = linear.system.state_names
+        _, mode = hunting_mode(linear)
+        yaw = {n: abs(mode[names.index(f"front {n}: yaw [rad]")]) for n in ("leading", "bolster")}
+        shares.append(yaw["bolster"] / yaw["leading"])
+        speeds.append(critical.speed)
+    assert shares[0] == pytest.approx(1.0, abs=0.2)
+    assert shares[1] < 0.6
+    assert speeds[1] < 0.7 * speeds[0]
 
 
 def test_every_hold_is_a_neutral_state_by_its_name():

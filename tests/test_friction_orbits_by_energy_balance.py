@@ -20,6 +20,7 @@ from exudyn_wheelset import (
     limit_cycles,
     linear_critical_speed,
 )
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.system import as_system
 
 FREQUENCY, SLIP, PRESLIDING, RATE, FIRST = 10.0, 4.0e-3, 1.0e-3, 2.0e-3, 20.0
@@ -77,6 +78,31 @@ def test_stable_and_unstable_orbit_meet_where_the_loss_is_greatest(branch):
     assert not np.any(np.asarray(branch.stable[place + 2 :], dtype=bool))
 
 
+def test_what_friction_holds_beside_an_orbit_is_neutral():
+    """A second mass, stuck: its hold may be strained by anything, a multiplier 1 of every orbit."""
+
+    def beside(state, speed):
+        _, v, hold = state[3:]
+        slipping = (v - abs(v) * hold) / PRESLIDING
+        return np.array([*rates(state[:3], speed), v, -SLIP * (hold + 0.3 * slipping), slipping])
+
+    def system(function, count):
+        names = [f"{n}{k}" for k in range(count) for n in ("y [m] ", "vy [m/s] ", "hold [-] ")]
+        names = [f"body {n[-1]}: {n[:-2].strip()}" for n in names]
+        scales = [1e-3, 1e-2, 0.1] * count
+        return FunctionSystem("oscillator", function, names, scales, displacement_indices=[0])
+
+    found = []
+    for one in (system(rates, 1), system(beside, 2)):
+        hopf = min(hopf_points(one, 10.0, 40.0))
+        found.append(limit_cycles(one, hopf, (10.0, 200.0), intervals=20, maximum_points=12))
+    alone, both = found
+    assert np.all(np.asarray(both.stable[1:8], dtype=bool))
+    np.testing.assert_allclose(
+        np.abs(both.multipliers[5]).max(), np.abs(alone.multipliers[5]).max(), atol=0.02
+    )
+
+
 def test_friction_bounds_the_hunting_of_a_wagon_and_simulation_keeps_its_orbit():
     """From the stuck wagon's Hopf point a stable branch of small orbits.
 
@@ -95,3 +121,27 @@ def test_friction_bounds_the_hunting_of_a_wagon_and_simulation_keeps_its_orbit()
     body = system.state_names.index("body: y [m]")
     for cycle in (motion[:101, body], motion[-101:, body]):
         assert 0.5 * np.ptp(cycle) == pytest.approx(sway[-1], rel=0.02)
+
+
+@pytest.mark.slow
+def test_the_branch_of_the_loaded_freight_car_goes_on_through_slipping_wedges():
+    """From the stuck car's Hopf point on to 48 m/s, the sway of the body bounded by friction.
+
+    Its orbits are stable but for what friction holds, and simulation stays on them.
+    """
+    system = as_system(catalogue.freight_car())
+    hopf = linear_critical_speed(system, 25.0, 60.0, points=12)
+    branch = limit_cycles(system, hopf, (38.0, 48.0), maximum_points=40)
+    assert branch.outcome.ending is Ending.UPPER_END
+    sway, speed = np.asarray(branch.amplitude["body: y"]), branch.speed
+    assert np.all(np.asarray(branch.stable, dtype=bool))
+    assert 3e-3 < sway[-1] < 8e-3 and np.all(speed > hopf.speed - 0.1)
+    orbit = branch.orbits[int(np.argmin(np.abs(speed - 43.0)))]
+    times = np.linspace(0.0, 6.0 * orbit.period, 601)
+    motion = system.simulate(orbit.states[0], orbit.speed, times)
+    body = system.state_names.index("body: y [m]")
+    holds = [k for k, name in enumerate(system.state_names) if name.endswith("hold [-]")]
+    assert np.abs(motion[:, holds]).max() > 0.3
+    expected = orbit.half_peak_to_peak()[list(system.displacement_indices).index(body)]
+    for cycle in (motion[:101, body], motion[-101:, body]):
+        assert 0.5 * np.ptp(cycle) == pytest.approx(expected, rel=0.01)

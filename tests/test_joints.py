@@ -9,7 +9,11 @@ import pytest
 from exudyn.utilities import (
     InertiaCuboid,
     MarkerBodyPosition,
+    MarkerNodeCoordinate,
     Node1D,
+    NodeGenericData,
+    NodePointGround,
+    ObjectConnectorCoordinateSpringDamperExt,
     ObjectMass1D,
     RigidBodyInertia,
 )
@@ -41,11 +45,11 @@ def nothing(mbs, speed):
     """A model that does not know the speed."""
 
 
-def body(mbs, inertia, place, **options):
+def body(mbs, inertia, place, node_type=ROTATION, **options):
     return mbs.CreateRigidBody(
         inertia=inertia,
         referencePosition=list(place),
-        nodeType=ROTATION,
+        nodeType=node_type,
         returnDict=True,
         **options,
     )
@@ -57,10 +61,11 @@ def model():
     return container, mbs, mbs.CreateGround()
 
 
-def pendulum(**options) -> ExudynSystem:
+def pendulum(node_type=ROTATION, **options) -> ExudynSystem:
     """A bar of 1 m on a hinge about x at its upper end."""
     container, mbs, ground = model()
-    bar = body(mbs, InertiaCuboid(1000.0, [0.1, 0.1, 1.0]), (0, 0, -0.5), gravity=[0, 0, -GRAVITY])
+    inertia = InertiaCuboid(1000.0, [0.1, 0.1, 1.0])
+    bar = body(mbs, inertia, (0, 0, -0.5), node_type, gravity=[0, 0, -GRAVITY])
     mbs.CreateRevoluteJoint(
         itemNumbers=[ground, bar["bodyNumber"]], position=[0, 0, 0], axis=[1, 0, 0]
     )
@@ -106,8 +111,9 @@ HINGE = (1.0 + 0.01) / 12.0 + 0.25
 SMALL = np.sqrt(GRAVITY * 0.5 / HINGE)
 
 
-def test_a_hinged_bar_swings_with_its_frequency():
-    system = pendulum()
+@pytest.mark.parametrize("node_type", [ROTATION, exu.NodeType.RotationRxyz])
+def test_a_hinged_bar_swings_with_its_frequency(node_type):
+    system = pendulum(node_type)
     assert system.size == 2
     found = linearise(system, 1.0).eigenvalues
     assert sorted(found.imag) == pytest.approx([-SMALL, SMALL], rel=1e-7)
@@ -194,6 +200,29 @@ def test_joints_that_leave_nothing_or_do_not_close_are_refused():
     bar = body(mbs, inertia, (0, 0, 0), initialDisplacement=[0.0, 0.3, 0.0])
     mbs.CreateSphericalJoint(itemNumbers=[ground, bar["bodyNumber"]], position=[0, 0, 0.5])
     with pytest.raises(AnalysisError, match=r"open by 0\.3"):
+        ExudynSystem(mbs, container, set_speed=nothing)
+
+
+def test_coordinates_that_no_analysis_treats_are_refused_with_a_mend():
+    with pytest.raises(AnalysisError, match=r"Euler parameters.*RotationRotationVector"):
+        pendulum(exu.NodeType.RotationEulerParameters)
+    container, mbs, _ = model()
+    node = mbs.AddNode(Node1D(referenceCoordinates=[0.0]))
+    mbs.AddObject(ObjectMass1D(physicsMass=1.0, nodeNumber=node))
+    memory = mbs.AddNode(
+        NodeGenericData(numberOfDataCoordinates=3, initialCoordinates=[1.0, 0.0, 0.0])
+    )
+    markers = [
+        mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=n, coordinate=0))
+        for n in (mbs.AddNode(NodePointGround()), node)
+    ]
+    mbs.AddObject(
+        ObjectConnectorCoordinateSpringDamperExt(
+            markerNumbers=markers, nodeNumber=memory, stiffness=100.0, fDynamicFriction=5.0,
+            stickingStiffness=1e4,
+        )
+    )  # fmt: skip
+    with pytest.raises(AnalysisError, match=r"data coordinates.*first-order coordinates"):
         ExudynSystem(mbs, container, set_speed=nothing)
 
 

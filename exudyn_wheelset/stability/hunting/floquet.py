@@ -13,7 +13,10 @@ measures the error.
 
 A vehicle that nothing holds along the track may stand anywhere along it and run a little faster:
 such multipliers are 1 for every orbit and say nothing of hunting; they are told by their
-eigenvectors, which move along the track and spin only.
+eigenvectors, which move along the track and spin only. Dry friction leaves orbits that are a set as
+well: what it holds within its band (a body between the rims of its centre plates) may stand a
+little elsewhere and be held there. In a system with holds of friction multipliers that are 1 to
+HELD_DISTANCE are those.
 """
 
 from __future__ import annotations
@@ -23,6 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.stability.linear.neutral import holds
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 # Multipliers this near to 1 may be the trivial one, or one of two beside a fold.
@@ -32,6 +36,8 @@ SECOND_PART = 0.05
 # A neutral multiplier is off by its own error, of the order of the trivial one's.
 NEUTRAL_DISTANCE = 0.02
 NEUTRAL_SHARE = 0.95
+# Neutral multipliers of the freight car's friction are off by 1e-5, the next are 0.999 and less.
+HELD_DISTANCE = 2.0e-4
 _ALONG = re.compile(r"(?:^|: )(?:x \[m\]|vx \[m/s\]|wy \[rad/s\]|pitch \[rad\])$")
 
 
@@ -42,7 +48,7 @@ class Multipliers:
     values   (k,) complex, by falling size; the trivial and the neutral ones are left out
     error    distance of the trivial multiplier from 1: so far the others may be off, too; more
              where simulated motion has shown them to be (see `measured_growth`)
-    neutral  number of multipliers of free motion along the track
+    neutral  number of multipliers of free motion along the track, and of what friction holds
     """
 
     values: Array
@@ -87,10 +93,13 @@ def floquet_multipliers(monodromy: Array, along: Array, system: DynamicSystem) -
 
 
 def _neutral(values: Array, vectors: Array, system: DynamicSystem) -> Array:
-    """Which multipliers (k,) near 1 belong to motion along the track and spin alone."""
+    """Which multipliers (k,) near 1 belong to motion along the track and spin, or to friction."""
+    held = np.zeros(len(values), dtype=bool)
+    if len(holds(system)):
+        held = np.abs(values - 1.0) < HELD_DISTANCE
     rows = [k for k, name in enumerate(system.state_names) if _ALONG.search(name)]
     if not rows or not system.wheelset_names:
-        return np.zeros(len(values), dtype=bool)
+        return held
     sizes = np.linalg.norm(vectors, axis=0)
     share = np.linalg.norm(vectors[rows], axis=0) / np.maximum(sizes, 1e-300)
-    return (share > NEUTRAL_SHARE) & (np.abs(values - 1.0) < NEUTRAL_DISTANCE)
+    return held | ((share > NEUTRAL_SHARE) & (np.abs(values - 1.0) < NEUTRAL_DISTANCE))
