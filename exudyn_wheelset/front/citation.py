@@ -131,7 +131,9 @@ def citation(vehicle: Any = None, *methods: str) -> Citation:
     >>> print(citation(None, "equivalent_conicity"))
     equivalent_conicity: EN 15302, Railway applications - Wheel-rail contact geometry parameters.
     """
-    from exudyn_wheelset import __all__ as names
+    import exudyn_wheelset
+
+    names = exudyn_wheelset.__all__
 
     found: list[tuple[str, str]] = []
     if vehicle is not None:
