@@ -19,33 +19,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from tqdm import tqdm
 
-from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
-from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.records import describe
-from exudyn_wheelset.stability.hunting.branch import Fold
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
-from exudyn_wheelset.stability.hunting.fold_points import fold_near, prepared
-from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.watching import watched_index
-from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
-from exudyn_wheelset.stability.linear.modes import is_lateral
 from exudyn_wheelset.stability.maps.curves import Curve, Regions, regions_of
-from exudyn_wheelset.stability.maps.fold_curves import BAUTIN, FoldPlace, FoldWorld
-from exudyn_wheelset.stability.maps.hopf_curves import HopfPlace, HopfWorld
-from exudyn_wheelset.stability.maps.tracing import Family, Tracer
+from exudyn_wheelset.stability.maps.fold_curves import BAUTIN
+from exudyn_wheelset.stability.maps.map_making import MapMaker
 from exudyn_wheelset.stability.numbers import unit_of
-from exudyn_wheelset.stability.subject import as_system, changed, description_of
-from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-# Speeds looked at by default, in Hopf speeds.
-RANGE = (0.4, 1.3)
-# A fold or Hopf point lies on a curve if it is this near to it, relative to its speed; folds of
-# S1002 wheelsets come as near as 1e-3 to each other, but at other amplitudes.
-SAME_SPEED, SAME_AMPLITUDE = 2e-3, 0.05
 
 
 @brief
@@ -153,6 +137,7 @@ def stability_map(
     starts: int = 3,
     most: int = 400,
     folds: bool = True,
+    branches: int = 1,
     intervals: int | None = None,
     settings: ContinuationSettings | None = None,
     progress: bool = False,
@@ -168,6 +153,8 @@ def stability_map(
     points     of a curve over the range, at least; most: of a curve that turns to and fro
     starts     values of the parameter at which diagrams are made
     folds      False leaves limit cycles out
+    branches   Hopf points of a diagram whose limit cycles are followed, the lowest ones first: a
+               car has one a truck
     intervals  of the orbits' mesh; default that of the diagrams, 90 on elastic contact
     settings   of the diagrams
 
@@ -191,7 +178,7 @@ def stability_map(
             "with low below high, at least two points and one start"
         )
     begun = time.perf_counter()
-    made = _Maker(vehicle, parameter, (low, high), progress)
+    made = MapMaker(vehicle, parameter, (low, high), progress)
     values = [0.5 * (low + high)] if starts == 1 else np.linspace(low, high, starts).tolist()
     with tqdm(disable=not progress, unit="point", desc="stability map") as bar:
         found = made.hopf_starts(values, speeds)
@@ -200,7 +187,9 @@ def stability_map(
         fold_curves: list[Curve] = []
         if folds:
             begun_at = [(value, points_) for value, points_ in found if value in values]
-            fold_curves = made.fold_curves(begun_at, points, most, intervals, settings, bar)
+            fold_curves = made.fold_curves(
+                begun_at, points, most, intervals, settings, bar, branches
+            )
     record = describe(
         made.family(values[len(values) // 2]),
         "stability map",
@@ -217,196 +206,3 @@ def stability_map(
         tuple(remarks),
         record,
     )
-
-
-class _Maker:
-    def __init__(
-        self, vehicle: Any, parameter: str, limits: tuple[float, float], progress: bool
-    ) -> None:
-        function = callable(vehicle) and not hasattr(vehicle, "dynamic_system")
-        description = vehicle if function else description_of(vehicle)
-        self.family = Family(lambda value: as_system(changed(description, parameter, value)))
-        self.limits = limits
-        self.remarks: list[str] = []
-        self.speeds = (0.0, np.inf)
-
-    def hopf_starts(
-        self, values: list[float], speeds: tuple[float, float] | None
-    ) -> list[tuple[float, list[CriticalPoint]]]:
-        """Hopf points of lateral modes at each start and at both ends of the range."""
-        from exudyn_wheelset.stability.hunting.nonlinear import SEARCH
-
-        found = []
-        # The ends of the range tell the speeds to look at, starts or not.
-        for value in sorted({*values, *self.limits}):
-            system = self.family(value)
-            points: list[CriticalPoint] = []
-            for range_ in SEARCH if speeds is None else (speeds,):
-                try:
-                    points = [p for p in hopf_points(system, *range_) if self._lateral(value, p)]
-                except WheelsetError as error:
-                    self.remarks.append(f"{value:g}: {error}")
-                if any(point.direction == "loses stability" for point in points):
-                    break
-            if points:
-                found.append((value, points))
-            else:
-                self.remarks.append(f"no Hopf point at {value:g}")
-        if not found:
-            raise AnalysisError(f"no Hopf point at any start: {'; '.join(self.remarks)}")
-        if speeds is None:
-            lowest = [min(points).speed for _, points in found]
-            speeds = (RANGE[0] * min(lowest), RANGE[1] * max(lowest))
-            # Other pairs that cross in the range as well.
-            found = [
-                (
-                    value,
-                    [
-                        p
-                        for p in hopf_points(self.family(value), *speeds)
-                        if self._lateral(value, p)
-                    ],
-                )
-                for value, _ in found
-            ]
-        self.speeds = float(speeds[0]), float(speeds[1])
-        return found
-
-    def _lateral(self, value: float, point: CriticalPoint) -> bool:
-        return is_lateral(self.family(value), point.mode)
-
-    def hopf_curves(
-        self,
-        found: list[tuple[float, list[CriticalPoint]]],
-        points: int,
-        most: int,
-        bar: Any,
-    ) -> list[Curve]:
-        """Curves through all Hopf points."""
-        world = HopfWorld(self.family, self.limits, self.speeds)
-        curves: list[Curve] = []
-        for value, starts in found:
-            for start in starts:
-                if not self.speeds[0] <= start.speed <= self.speeds[1]:
-                    continue
-                if _on_a_curve(curves, value, start.speed):
-                    continue
-                try:
-                    tracer = Tracer(world, world.begin(start, value), 1.0 / points, bar.update)
-                    places, ends = tracer.both_ways(most)
-                except WheelsetError as error:
-                    self.remarks.append(f"Hopf point at {value:g}, {start.speed:.4f} m/s: {error}")
-                    continue
-                curves.append(self._hopf_curve(world, places, ends))
-        return curves
-
-    def _hopf_curve(
-        self, world: HopfWorld, places: list[HopfPlace], ends: tuple[str, str]
-    ) -> Curve:
-        system = self.family(places[0].parameter)
-        names = [system.state_names[index] for index in system.displacement_indices]
-        step = np.array([1e-5, 0.0])
-        loses = np.array([world.reach(p, step).value > p.value for p in places])
-        return Curve(
-            "hopf",
-            np.array([place.speed for place in places]),
-            np.array([place.parameter for place in places]),
-            np.array([place.eigenvalue.imag / (2.0 * np.pi) for place in places]),
-            np.zeros(len(places)),
-            NamedColumns(np.zeros((len(places), len(names))), names),
-            loses,
-            ends,
-        )
-
-    def fold_curves(
-        self,
-        found: list[tuple[float, list[CriticalPoint]]],
-        points: int,
-        most: int,
-        intervals: int | None,
-        settings: ContinuationSettings | None,
-        bar: Any,
-    ) -> list[Curve]:
-        """Curves through the folds of all diagrams."""
-        world = FoldWorld(self.family, self.limits, self.speeds)
-        curves: list[Curve] = []
-        for value, starts in found:
-            system = self.family(value)
-            for fold in self._folds(system, starts, settings):
-                if not self.speeds[0] <= fold.speed <= self.speeds[1] or fold.orbit is None:
-                    continue
-                watched = system.state_names[watched_index(system)]
-                if _on_a_curve(curves, value, fold.speed, fold.amplitude[watched]):
-                    continue
-                try:
-                    orbit = prepared(system, fold.orbit, intervals, self._ends())
-                    point = fold_near(system, orbit, fold.side, 1e-4)
-                    place = FoldPlace(point, value, point.size)
-                    amplitude = point.orbit.half_peak_to_peak()[watched_index(system)]
-                    if _on_a_curve(curves, value, place.speed, float(amplitude)):
-                        continue
-                    tracer = Tracer(world, place, 1.0 / points, bar.update)
-                    places, ends = tracer.both_ways(most)
-                except WheelsetError as error:
-                    self.remarks.append(f"fold at {value:g}, {fold.speed:.4f} m/s: {error}")
-                    continue
-                curves.append(self._fold_curve(places, ends))
-        return curves
-
-    def _ends(self) -> tuple[DynamicSystem, DynamicSystem]:
-        return self.family(self.limits[0]), self.family(self.limits[1])
-
-    def _folds(
-        self,
-        system: DynamicSystem,
-        starts: list[CriticalPoint],
-        settings: ContinuationSettings | None,
-    ) -> list[Fold]:
-        """Folds of the branch from the first Hopf point of one vehicle."""
-        folds: list[Fold] = []
-        for start in [s for s in sorted(starts) if s.direction == "loses stability"][:1]:
-            speeds = (
-                max(self.speeds[0], RANGE[0] * start.speed),
-                min(self.speeds[1], RANGE[1] * start.speed),
-            )
-            if not speeds[0] < start.speed < speeds[1]:
-                continue
-            try:
-                folds += limit_cycles(system, start, speeds, settings=settings).folds
-            except WheelsetError as error:
-                self.remarks.append(f"branch at {start.speed:.4f} m/s: {error}")
-        return folds
-
-    def _fold_curve(self, places: list[FoldPlace], ends: tuple[str, str]) -> Curve:
-        system = self.family(places[0].parameter)
-        indices = list(system.displacement_indices)
-        names = [system.state_names[index] for index in indices]
-        amplitudes = np.array([p.point.orbit.half_peak_to_peak()[indices] for p in places])
-        table = NamedColumns(amplitudes, names)
-        return Curve(
-            "fold",
-            np.array([place.speed for place in places]),
-            np.array([place.parameter for place in places]),
-            np.array([1.0 / place.point.orbit.period for place in places]),
-            amplitudes[:, indices.index(watched_index(system))],
-            table,
-            np.array([place.one_side_stable for place in places]),
-            ends,
-        )
-
-
-def _on_a_curve(
-    curves: list[Curve], parameter: float, speed: float, amplitude: float | None = None
-) -> bool:
-    """Whether a point lies on a curve already."""
-    for curve in curves:
-        for known, row in curve.crossings(parameter):
-            if abs(known - speed) > SAME_SPEED * speed:
-                continue
-            if amplitude is None:
-                return True
-            beside: Array = curve.amplitude[row : row + 2]
-            near = np.abs(beside - amplitude).min() < SAME_AMPLITUDE * amplitude
-            if near or beside.min() <= amplitude <= beside.max():
-                return True
-    return False
