@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 from tqdm import tqdm
 
 from exudyn_wheelset.catalogue import paper_wheelset as paper
+from exudyn_wheelset.contact.descriptions import Contact
 from exudyn_wheelset.front.mode_plots import draw_critical_speeds, draw_root_locus
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
@@ -80,7 +81,7 @@ def assumed(profiles: ScriptProfiles = PAPER_PROFILES) -> dict[str, Any]:
         "gauge": profiles.gauge,
         "inclination": profiles.inclination,
         "tape_half_distance": paper.TAPE_HALF_DISTANCE,
-        "contact_damping": paper.CONTACT_DAMPING,
+        "contact_damping": Contact.damping,
         "spin": "V/r0, r0 the nominal radius, as in equations (2) and (4); free in *_free_spin",
     }
 

@@ -4,10 +4,22 @@ What a change does to motion is the business of other tests; here it must arrive
 reads it, on every wheelset, and the vehicle must still stand or run straight.
 """
 
+import inspect
+
 import numpy as np
 import pytest
 
-from exudyn_wheelset import Vehicle, WheelsetError, catalogue, load_profile, static_equilibrium
+from exudyn_wheelset import (
+    Contact,
+    Vehicle,
+    WheelsetError,
+    catalogue,
+    contact_forces,
+    create_wheelset,
+    load_profile,
+    static_equilibrium,
+)
+from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.systems.system import as_system
 
@@ -85,3 +97,20 @@ def test_a_change_is_in_the_vehicle(name, change, tmp_path):
         assert static_equilibrium(made).residual < 1e-6
     elif change in ("creep", "wheel path", "radius"):
         assert np.all(np.isfinite(as_system(made).equilibrium(15.0)))
+
+
+@pytest.mark.parametrize("name", [*DESCRIBED, *ON_PROFILES])
+def test_contact_damping_has_one_default(name):
+    """Steel's (docs/decisions/contact-damping.md), but for s1002, which says why (by_name.py)."""
+    if name == "paper-lateral-2":
+        return
+    made = catalogue.vehicle(name)
+    contact = made.contact if isinstance(made, Vehicle) else Contact(**made.contact)
+    assert contact.damping == (10.0 if name == "s1002" else Contact.damping)
+
+
+@pytest.mark.parametrize("function", [create_wheelset, contact_forces, contact_parameters, Contact])
+def test_contact_damping_has_one_default_in_functions(function):
+    parameters = inspect.signature(function).parameters
+    if "damping" in parameters:
+        assert parameters["damping"].default == Contact.damping

@@ -2,11 +2,9 @@
 
 S. Iwnicki (ed.), The Manchester Benchmarks for Rail Vehicle Simulation, Vehicle System Dynamics 31
 Supplement (1999), in the numbers of masses, springs, dampers and dimensions that agree in later
-uses of it. The dampers work in series with springs, or without them. Three numbers are not those of
-the source: the height of the secondary suspension, 1.1 m, the damping and length of the traction
-rods, and the contact's damping, 2 % of critical for the bounce of a wheelset on its contacts,
-without which a wheel hops on its flange in narrow curves.
-SI units.
+uses of it. The dampers work in series with springs, or without them. Not of the source are two
+numbers: the height of the secondary suspension, 1.1 m, and damping and length of the traction
+rods. SI units.
 """
 
 from __future__ import annotations
@@ -57,7 +55,7 @@ def manchester_coach(series_stiffness: bool = True, **changes: Any) -> Vehicle:
         mass=1813.0, inertia=(1120.0, 112.0, 1120.0), radius=0.46, wheel="S1002"
     )
     track = asked.track(rail="UIC60", gauge=1.435, inclination=1.0 / 40.0)
-    coach = VehicleBuilder("Manchester coach", track, asked.contact(friction=0.3, damping=0.5))
+    coach = VehicleBuilder("Manchester coach", track, asked.contact(friction=0.3))
 
     def damper(
         axis: str, stiffness: float, damping: float, lower: Part, upper: Part, at: Any, name: str

@@ -14,7 +14,6 @@ RAIL = "UIC60"
 GAUGE = 1.432
 INCLINATION = 1.0 / 40.0
 TAPE_HALF_DISTANCE = 0.75
-CONTACT_DAMPING = 1.0
 
 
 def paper_lateral_wheelset(code: str, spring_set: int, **options: Any) -> LateralWheelset:
@@ -62,7 +61,6 @@ def paper_wheelset(
             "friction": given.friction,
             "shear_modulus": given.shear_modulus,
             "poisson": given.poisson,
-            "damping": CONTACT_DAMPING,
             **contact,
         },
         driven=driven,
