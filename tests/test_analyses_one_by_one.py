@@ -55,7 +55,7 @@ def test_a_neutral_mode_strains_one_hold_alone():
     system = SimpleNamespace(
         state_names=("y [m]", "truck: wedge hold [-]", "truck: plate hold [-]")
     )
-    alone, both = np.array([0.3, 1.0, 0.04]), np.array([0.3, 1.0, 0.5])
+    alone, both = np.array([0.3, 2.0, 0.16]), np.array([0.3, 0.5, 0.1])
     assert neutral_name(system, 0.0, alone) == "neutral: wedge"
     assert neutral_name(system, 0.0, both) is None
     assert neutral_name(system, 1e-3, alone) is None
