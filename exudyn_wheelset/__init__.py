@@ -99,6 +99,7 @@ _PLACES = {
     "save_vehicle": "vehicles.files",
     "simulate": "systems.simulation",
     "stability_map": "stability.maps.stability_map",
+    "all_branches": "stability.hunting.all_branches",
     "switch_branch": "stability.hunting.branch_switching",
     "Study": "studies",
     "study": "studies",

@@ -18,7 +18,7 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq, fsolve
 
-from exudyn_wheelset import AnalysisError
+from exudyn_wheelset import AnalysisError, all_branches
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch_switching import switch_branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
@@ -160,6 +160,38 @@ def test_broken_symmetry(mirror):
     expected = np.exp(-2.0 * np.pi * np.minimum(other.speed, 1.0 + other.speed))
     np.testing.assert_allclose(np.abs(other.multipliers[:, 0]), expected, rtol=1e-4)
     assert np.all(other.stable[1:]) and other.speed.max() == pytest.approx(0.5)
+
+
+def two_trucks(states, mu):
+    """Two oscillators side by side that begin at 1.0 and 1.2, as the trucks of a car do."""
+    parts = []
+    for pair, begin, turn in ((states[:, :2], 1.0, 2.0), (states[:, 2:], 1.2, 3.0)):
+        x, y = pair.T
+        growth = mu - begin - x**2 - y**2
+        parts += [growth * x - turn * y, growth * y + turn * x]
+    return np.stack(parts, axis=1)
+
+
+def test_branches_of_both_trucks():
+    system = system_of("two trucks", two_trucks, ("a", "b", "c", "d"), displacements=(0, 2))
+    found = all_branches(system, (0.8, 1.6), switch=False)
+    one, two = found.branches
+    np.testing.assert_allclose(one.amplitude["a"] ** 2, one.speed - 1.0, atol=1e-5)
+    np.testing.assert_allclose(two.amplitude["c"] ** 2, two.speed - 1.2, atol=1e-5)
+    assert one.amplitude["c"].max() < 1e-6 and two.amplitude["a"].max() < 1e-6
+    # The first truck alone is stable until the second begins, and the second alone never.
+    assert np.all(one.stable[one.speed < 1.199]) and not np.any(two.stable)
+
+
+def test_branches_that_leave_and_motions_on_known_ones():
+    system = system_of("pitchfork", pitchfork, ("x", "y", "z"), displacements=(0, 1, 2))
+    # A motion on the branch of broken symmetry, with its mirror image, adds none.
+    starts = [(0.3, np.array([1.1, 0.0, sign])) for sign in (1.5, -1.5)]
+    found = all_branches(system, (-1.1, 0.5), starts=starts)
+    assert [branch.record["begins"].split(" at")[0] for branch in found.branches] == [
+        "Hopf point",
+        "branch point",
+    ]
 
 
 def test_a_torus_is_not_a_branch_of_cycles():
