@@ -42,7 +42,8 @@ def imported(path: Path) -> set[str]:
             assert node.level == 0, f"{path}: import by the whole name"
             modules = [node.module]
             if node.module == PACKAGE.name:
-                modules = [f"{node.module}.{alias.name}" for alias in node.names]
+                names_of_it = [alias.name for alias in node.names]
+                modules = [f"{node.module}.{name}" for name in names_of_it if name != "__all__"]
         names |= {
             module.split(".")[1] for module in modules if module.startswith(f"{PACKAGE.name}.")
         }
