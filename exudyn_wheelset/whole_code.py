@@ -54,7 +54,6 @@ class Library(JITCodeLibrary):
                 continue
             seen.add(library)
             if isinstance(library, Library) and not library._finalized:
-                self._reload_init.update(library._reload_init)
                 self._final_module.link_in(library._part(), preserve=True)
                 inner += library._names
                 waiting += library._linking_libraries[::-1]
@@ -140,7 +139,7 @@ class Kernel(CPUDispatcher):
         targetoptions: Any = None,
         pipeline_class: Any = compiler.Compiler,
     ) -> None:
-        super().__init__(py_func, locals, targetoptions, pipeline_class)
+        super().__init__(py_func, locals or {}, targetoptions or {}, pipeline_class)
         self._compiler = _Whole(
             py_func, self.targetdescr, self.targetoptions, self.locals, pipeline_class
         )

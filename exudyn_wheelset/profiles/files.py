@@ -21,6 +21,7 @@ import os
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
@@ -161,6 +162,14 @@ def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | N
     )
 
 
+def _profile_files() -> Any:
+    """The folder of the profiles that come with the package, installed or in its source tree."""
+    try:
+        return importlib.resources.files("exudyn_wheelset.profile_files")
+    except ModuleNotFoundError:
+        return Path(__file__).parents[2] / "profiles"
+
+
 def _bundled(name: str) -> Profile | None:
     plain = re.sub(r"[\s_:-]+", "", name).lower()
     cone = re.fullmatch(r"cone(?:1/?(\d+)|(\d*\.\d+))", plain, re.ASCII)
@@ -171,8 +180,8 @@ def _bundled(name: str) -> Profile | None:
         return shapes.cone(1.0 / denominator if denominator else float(cone[2]))
     for stem in BUNDLED:
         if plain == stem.replace("_", "").lower():
-            resource = importlib.resources.files("exudyn_wheelset.profile_files") / f"{stem}.txt"
-            raw = two_column.read(split_lines(resource.read_text(encoding="utf-8")), stem)
+            text = (_profile_files() / f"{stem}.txt").read_text(encoding="utf-8")
+            raw = two_column.read(split_lines(text), stem)
             return finish(raw, stem, stem, Options())
     return None
 
