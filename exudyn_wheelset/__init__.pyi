@@ -10,6 +10,7 @@ from exudyn_wheelset.catalogue.wheelset_on_frame import WheelsetOnFrame as Wheel
 from exudyn_wheelset.contact.descriptions import Contact as Contact
 from exudyn_wheelset.contact.descriptions import Track as Track
 from exudyn_wheelset.contact.descriptions import Wheelset as Wheelset
+from exudyn_wheelset.contact.rail_section import RailSection as RailSection
 from exudyn_wheelset.contact.wheelset_contact import contact_energy as contact_energy
 from exudyn_wheelset.contact.wheelset_contact import contact_forces as contact_forces
 from exudyn_wheelset.coupling.create import create_wheelset as create_wheelset
@@ -29,6 +30,7 @@ from exudyn_wheelset.errors import VehicleError as VehicleError
 from exudyn_wheelset.errors import WheelsetError as WheelsetError
 from exudyn_wheelset.errors import WheelsetWarning as WheelsetWarning
 from exudyn_wheelset.front.citation import citation as citation
+from exudyn_wheelset.front.contact_view import contact_view as contact_view
 from exudyn_wheelset.front.film import film as film
 from exudyn_wheelset.front.profile_report import profile_report as profile_report
 from exudyn_wheelset.front.settings import load_settings as load_settings
@@ -46,6 +48,7 @@ from exudyn_wheelset.results.endings import Outcome as Outcome
 from exudyn_wheelset.results.motion import Motion as Motion
 from exudyn_wheelset.stability.design import design as design
 from exudyn_wheelset.stability.hunting.branch import Branch as Branch
+from exudyn_wheelset.stability.hunting.branch_switching import switch_branch as switch_branch
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent as quasi_static_descent
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance as critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles as limit_cycles
@@ -131,6 +134,7 @@ __all__ = [
     "Profile",
     "ProfileError",
     "RailElasticity",
+    "RailSection",
     "SettingsError",
     "SideBearer",
     "Spectrum",
@@ -161,6 +165,7 @@ __all__ = [
     "contact_energy",
     "contact_forces",
     "contact_geometry",
+    "contact_view",
     "create_wheelset",
     "creep_force",
     "critical_disturbance",
@@ -193,6 +198,7 @@ __all__ = [
     "steady_curve",
     "studies",
     "study",
+    "switch_branch",
     "warm_up",
     "wheelsets_of",
     "with_free_lengths",
