@@ -135,7 +135,7 @@ def show_rails(
         time = mbs.systemData.GetTime(exu.ConfigurationType.Visualization)
         return _sleepers(start, end, speed * time)
 
-    visual = VObjectGround(graphicsDataUserFunction=sleepers)
+    visual = VObjectGround(graphicsDataUserFunction=sleepers)  # type: ignore[arg-type]
     mbs.AddObject(ObjectGround(name="sleepers", visualization=visual))
     return mbs.CreateGround(graphicsDataList=_rails(track, start, end))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from tqdm import tqdm
 
@@ -22,7 +23,7 @@ def warm_up(everything: bool = False, progress: bool = False) -> float:
     True
     """
     start = time.perf_counter()
-    steps = {"contact of a wheelset": _contact}
+    steps: dict[str, Callable[[], None]] = {"contact of a wheelset": _contact}
     if everything:
         steps |= {
             "energy": _energy,
@@ -38,7 +39,15 @@ def warm_up(everything: bool = False, progress: bool = False) -> float:
     return time.perf_counter() - start
 
 
-def _contact(normal: str = "hertz") -> None:
+def _contact() -> None:
+    _forces("hertz")
+
+
+def _energy() -> None:
+    _forces("energy")
+
+
+def _forces(normal: str) -> None:
     from exudyn_wheelset.contact.descriptions import Track, Wheelset
     from exudyn_wheelset.contact.wheelset_contact import contact_forces
     from exudyn_wheelset.geometry.rigid import contact_geometry
@@ -48,10 +57,6 @@ def _contact(normal: str = "hertz") -> None:
     height = contact_geometry(wheelset, track, [1e-3]).z[0] - 5e-5
     motion = (20, 0, 0, 0, 43, 0)
     contact_forces(wheelset, track, (0, 1e-3, height, 0, 0, 0), motion, normal=normal)
-
-
-def _energy() -> None:
-    _contact("energy")
 
 
 def _strips() -> None:
