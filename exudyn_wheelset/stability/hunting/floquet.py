@@ -77,7 +77,12 @@ def floquet_multipliers(monodromy: Array, along: Array, system: DynamicSystem) -
         candidates = np.array([int(np.argmin(np.abs(values - 1.0)))])
     candidates = candidates[np.argsort(-parts[candidates], kind="stable")][:2]
     rest = np.delete(np.arange(len(values)), candidates)
-    if len(candidates) == 1:
+    distances = np.abs(values[candidates] - 1.0)
+    # Two of 1, one of which friction holds.
+    held = len(candidates) == 2 and len(holds(system)) > 0 and distances.max() < HELD_DISTANCE
+    if held:
+        error, kept = float(distances.max()), values[rest]
+    elif len(candidates) == 1:
         error, kept = float(abs(values[candidates[0]] - 1.0)), values[rest]
     else:
         one, two = values[candidates]
@@ -86,7 +91,7 @@ def floquet_multipliers(monodromy: Array, along: Array, system: DynamicSystem) -
         error = float(left / max(abs(other - 1.0), np.sqrt(left), 1e-300))
         kept = np.append(values[rest], other.real if abs(other.imag) < 1e-9 else other)
     along_track = _neutral(values[rest], vectors[:, rest], system)
-    neutral = int(np.count_nonzero(along_track))
+    neutral = int(np.count_nonzero(along_track)) + int(held)
     kept = np.concatenate([kept[: len(rest)][~along_track], kept[len(rest) :]])
     order = np.argsort(-np.abs(kept), kind="stable")
     return Multipliers(kept[order], error, neutral)
