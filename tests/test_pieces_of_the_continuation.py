@@ -71,6 +71,9 @@ def test_a_balanced_mesh_is_even_where_nothing_varies_and_dense_where_much_does(
     steep = orbit_from_samples(np.column_stack([peak, 0 * peak]), 1.0, 1.0, 12, 4)
     widths = np.diff(balanced_mesh(steep, np.ones(2)))
     assert widths[4:8].max() < 0.7 * widths[[0, 1, -2, -1]].min()
+    # Which unit the motion is in does not matter.
+    small = orbit_from_samples(np.column_stack([1e-6 * peak, 0 * peak]), 1.0, 1.0, 12, 4)
+    np.testing.assert_allclose(np.diff(balanced_mesh(small, np.ones(2))), widths, rtol=1e-9)
 
 
 def named(*names, wheelsets=()):

@@ -93,8 +93,8 @@ UPPER_GROUPS = {
     ),
     "description": Group(
         _under("vehicles", "description builder paths assemble spin_drive drawbar"),
-        (*_VEHICLE_TESTS, "test_curving_closed_forms.py"),
-        deselected="newtons_method or simulated_curve or halving or moving_frame_s or narrow",
+        ("test_vehicle_description.py", "test_vehicle_motion.py", "test_vehicle_statics.py"),
+        deselected="several_vehicles or no_rest",
     ),
     "vehicle-files": Group(
         _under(
@@ -124,22 +124,16 @@ UPPER_GROUPS = {
         ),
         (
             "test_measured_growth.py",
-            "test_what_amplitudes_and_multipliers_say.py",
             "test_settled_branch.py",
             "test_normal_form_hopf_fold.py",
-            "test_limit_cycles_endings.py",
-            "test_descent_by_truck.py",
+            "test_what_amplitudes_and_multipliers_say.py",
         ),
-        deselected="convergence_at_the or speed_range",
+        deselected="supercritical_branch",
     ),
     "nonlinear": Group(
         _under("stability/hunting", "nonlinear large_starts truck_speeds diagram"),
-        (
-            "test_normal_form_hopf_fold.py",
-            "test_limit_cycles_endings.py",
-            "test_descent_by_truck.py",
-        ),
-        deselected="disturbance_runs or convergence_at_the or speed_range",
+        ("test_normal_form_hopf_fold.py", "test_limit_cycles_endings.py"),
+        deselected="disturbance_runs or convergence_at_the or speed_range or critical_disturbance",
     ),
     "linear": Group(
         _under(
