@@ -54,6 +54,25 @@ def test_forces_at_random_states(poisson, seed):
     assert moment.max() < 0.02
 
 
+@pytest.mark.parametrize("ratio", [0.17, 0.5, 2.2, 4.4, 7.0])
+def test_creepage_against_spin(ratio):
+    """Where either turns round the lateral force of the other, a steep place of long patches."""
+    a, b = patch(ratio)
+    unit_x, unit_y, unit_spin = saturation(a, b, 0.28)
+    spin, share, along = np.meshgrid([1.3, 1.7], [0.45, 0.65, 0.85, 1.1], [0.0, 0.3])
+    size = np.full(spin.size, 1.0)
+    states = [
+        along.ravel() * unit_x,
+        -(share * spin).ravel() * unit_y,
+        spin.ravel() * unit_spin,
+        a * size,
+        b * size,
+    ]
+    force, moment = errors(states, 0.28)
+    assert force.max() < 0.012
+    assert moment.max() < 0.012
+
+
 def test_far_beyond_saturation():
     force, moment = errors(random_states(60, (0.1, 10), 10, 6, 0.28, 4), 0.28)
     assert force.max() < 0.03

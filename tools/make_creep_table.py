@@ -2,9 +2,9 @@
 
     python tools/make_creep_table.py [folder of parts]
 
-Parts, six a shape, are kept in the folder (default build/creep_table); a second run makes those
+Parts, eight a shape, are kept in the folder (default build/creep_table); a second run makes those
 that are missing. Then all are put together as exudyn_wheelset/creep/exact_table.npy, and its hash
-is written into exudyn_wheelset/creep/exact_table.py. About twenty minutes of one core.
+is written into exudyn_wheelset/creep/exact_table.py. Half an hour of one core.
 """
 
 import hashlib
@@ -43,6 +43,9 @@ COARSE = 18
 KNEE_FROM, KNEE_TO = 0.5, 1.75
 AROUND, NEAR_SPIN = 4, 4
 LEVEL, LEVEL_PSIS = math.radians(22), 3
+# where creepage acts against spin the lateral force turns its sign within a few tenths of either:
+# there the table's own theta and all sigma up to that rho_e
+AGAINST, AGAINST_PSIS, AGAINST_TO = math.radians(152), 6, 3.2
 # in place of psi = 0, where F_x is zero and F_x over n_x is wanted: on a wide patch the slip along
 # x then turns round well within the strips of cells beside y = 0
 SMALL_PSI = math.radians(0.5)
@@ -98,8 +101,9 @@ def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     """The cells' coefficients of one shape, and H at its nodes.
 
     Solved are every second sigma at COARSE equal steps of theta; all sigma near saturation by spin
-    in the directions around it; and there the table's own theta near pure spin: the slope over
-    lateral creepage falls by half within a tenth of that spin. The other nodes are read off the
+    in the directions around it; and there the table's own theta near pure spin, where the slope
+    over lateral creepage falls by half within a tenth of that spin, and where creepage acts against
+    spin. The other nodes are read off the
     splines through those.
     """
     psis = 0.5 * np.pi * np.arange(PSIS) / (PSIS - 1)
@@ -133,6 +137,16 @@ def part(folder: Path, shape: int) -> tuple[np.ndarray, np.ndarray]:
     resampled = resampled + 0.5 * (0.5 + t) ** 2 * wide[:, node + 2]
     resampled = smoothed_psi(resampled)
     level = np.flatnonzero(abs(thetas - 0.5 * np.pi) < LEVEL)
+    against = np.flatnonzero((thetas > 0.5 * np.pi) & (thetas < AGAINST))
+    opposed = 1 + np.flatnonzero((sizes > KNEE_FROM) & (sizes < AGAINST_TO))
+    spinning = np.arange(AGAINST_PSIS)
+    states = opposed / RADII, thetas[against], psis[spinning]
+    found = solved(folder / f"against_{shape:02d}.npz", shape, *states)
+    of_states = remainder(ratio, c, found["forces"], *states)
+    # beyond the knee both sides of pure spin come from the same solutions: their slope meets there
+    used = (thetas[against] > 0.5 * np.pi + LEVEL) | (sizes[opposed - 1] < KNEE_TO)[:, None]
+    block = np.ix_(opposed - 1, against, spinning)
+    resampled[block] = np.where(used[:, :, None, None], of_states, resampled[block])
     spinning = np.arange(LEVEL_PSIS)
     states = fine / RADII, thetas[level], psis[spinning]
     found = solved(folder / f"spin_{shape:02d}.npz", shape, *states, FINE_TOLERANCE)

@@ -43,8 +43,8 @@ WIDE = 0.6
 WIDE_CELLS = 30, 60
 SHAPES = 11
 RADII = 40
-THETAS = 28
-WARP = 0.5
+THETAS = 36
+WARP = 0.6
 PSIS = 10
 FAR = 1e4
 # shapes at which Kalker's coefficients are kept

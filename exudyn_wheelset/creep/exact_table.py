@@ -64,7 +64,7 @@ from exudyn_wheelset.creep.saturation import LEAST_FRICTION_FORCE, bounded
 LAW = CreepLaw("exact-table", 7, "Kalker 1990, complete theory, interpolated")
 
 FILE = Path(__file__).with_name("exact_table.npy")
-SHA256 = "02f9f0f1863e769ff089e40916f44eca925a2913ce454ce19ea01c8719c1589c"
+SHA256 = "45c70977c7fa95d73732a229c8998f1a29121fd73f7077ceef9b74a8a25d669b"
 NEAR = 0.25
 BETWEEN = 1.5
 LEAST_RATIO = 0.1
