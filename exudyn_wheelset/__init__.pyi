@@ -47,6 +47,7 @@ from exudyn_wheelset.results.endings import Ending as Ending
 from exudyn_wheelset.results.endings import Outcome as Outcome
 from exudyn_wheelset.results.motion import Motion as Motion
 from exudyn_wheelset.stability.design import design as design
+from exudyn_wheelset.stability.hunting.all_branches import all_branches as all_branches
 from exudyn_wheelset.stability.hunting.branch import Branch as Branch
 from exudyn_wheelset.stability.hunting.branch_switching import switch_branch as switch_branch
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent as quasi_static_descent
@@ -159,6 +160,7 @@ __all__ = [
     "WheelsetWarning",
     "__version__",
     "add_frame_loads",
+    "all_branches",
     "basin",
     "catalogue",
     "citation",
