@@ -6,6 +6,7 @@ Some five minutes. `python docs/figures/make_stability_maps.py`
 from pathlib import Path
 
 from exudyn_wheelset import nonlinear_critical_speed, stability_map
+from exudyn_wheelset.catalogue import vehicle
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
 
@@ -27,6 +28,18 @@ def draw_maps(conicity, friction, gauge) -> None:
     write_figure(PLACE / "stability_maps.png", figure)
 
 
+def draw_friction_and_car(friction, car) -> None:
+    """The S1002 wheelset over friction, and a car over the stiffness of its axle guidance."""
+    figure, axes = new_figure(9.5, 4.2, 1, 2)
+    friction.plot(axes[0, 0])
+    axes[0, 0].set_title("S1002 wheelset on UIC60 1:40", fontsize=10)
+    car.plot(axes[0, 1])
+    axes[0, 1].set_title("DTU car", fontsize=10)
+    axes[0, 1].set_xlabel("longitudinal stiffness of the primary springs [N/m]")
+    axes[0, 1].get_legend().remove()
+    write_figure(PLACE / "stability_maps_friction_car.png", figure)
+
+
 def draw_tornado(gradient) -> None:
     """What moves the fold of the bogie."""
     figure, axes = new_figure(7.5, 4.2)
@@ -39,7 +52,28 @@ def main() -> None:
     draw_maps(
         stability_map("cooperrider", "speed", "conicity", (0.02, 0.2)),
         stability_map("cooperrider", "speed", "friction", (0.05, 0.4)),
-        stability_map("s1002", "speed", "gauge", (1.4335, 1.4365), starts=1, points=12),
+        stability_map(
+            vehicle("s1002", normal="hertz"),
+            "speed",
+            "gauge",
+            (1.4335, 1.4365),
+            starts=1,
+            points=12,
+        ),
+    )
+    draw_friction_and_car(
+        stability_map(
+            vehicle("s1002", normal="hertz"), "speed", "friction", (0.1, 0.5), starts=2, points=12
+        ),
+        stability_map(
+            vehicle("dtu_car", normal="hertz"),
+            "speed",
+            "connections.primary.stiffness.x",
+            (1e6, 8e6),
+            speeds=(15.0, 120.0),
+            folds=False,
+            points=20,
+        ),
     )
     draw_tornado(nonlinear_critical_speed("cooperrider", check=False).gradient())
 
