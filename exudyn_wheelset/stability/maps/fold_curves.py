@@ -65,7 +65,9 @@ class FoldPlace:
     def one_side_stable(self) -> bool:
         """Whether cycles are stable on one side of the fold: no multiplier outside but its own."""
         values, error = self.multipliers
-        others = np.delete(values, int(np.argmin(np.abs(values - 1.0)))) if len(values) else values
+        # Its own is 1 to a factor: where forces jump it may come out as 2.
+        factors = np.abs(np.log(np.maximum(np.abs(values), 1e-300)) + 1j * np.angle(values))
+        others = np.delete(values, int(np.argmin(factors))) if len(values) else values
         return bool(np.all(np.abs(others) < 1.0 + max(1e-3, error)))
 
 
