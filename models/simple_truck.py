@@ -37,6 +37,7 @@ from exudyn_wheelset.front.script import (
 )
 from exudyn_wheelset.front.settings import changed_settings, load_settings, output_of
 from exudyn_wheelset.front.tables import print_growth, print_wheel_loads
+from exudyn_wheelset.front.vehicle_options import add_creep_option, law_changes
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.modes import lateral_shape
 from exudyn_wheelset.stability.linear.simulated_growth import compare_growth
@@ -122,14 +123,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser(__doc__.splitlines()[0], settings=DEFAULT_SETTINGS)
     add_profile_options(parser)
     add = parser.add_argument
-    add("--creep", default="shen-hedrick-elkins", help="creep law")
+    add_creep_option(parser, "shen-hedrick-elkins")
     add("--friction", type=float, default=0.15, help="coefficient of friction")
     add("--amplitude", type=float, default=AMPLITUDE, help="of the start [m]")
     add("--duration", type=float, default=6.0, help="of each run [s]")
     add("--picture", action="store_true", help="draw the truck on its rails")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        contact = {"creep": arguments.creep, "friction": arguments.friction}
+        contact = {**law_changes(arguments.creep), "friction": arguments.friction}
         truck = catalogue.vehicle("truck", **contact, **profiles_from(arguments).changes)
         settings = get_ready(arguments)
         numbers, motions, critical = run(

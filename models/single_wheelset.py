@@ -36,6 +36,7 @@ from exudyn_wheelset.front.script import (
 )
 from exudyn_wheelset.front.settings import changed_settings, output_of
 from exudyn_wheelset.front.tables import print_growth
+from exudyn_wheelset.front.vehicle_options import add_creep_option, law_changes
 from exudyn_wheelset.stability.linear.simulated_growth import compare_growth
 
 DEFAULT_SETTINGS = Path(__file__).resolve().parents[1] / "runs" / "rk44.json"
@@ -100,14 +101,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     add("--speed", type=float, nargs="+", help="[m/s]; default: 0.85 and 1.15 of the critical")
     add("--offset", type=float, default=OFFSET, help="lateral, at the release [m]")
     add("--duration", type=float, help="[s]; default: that of the settings")
-    add("--creep", default="polach", help="creep law")
+    add_creep_option(parser, "polach")
     add("--friction", type=float, help="coefficient; default: that of Table 2")
     add("--driven", action="store_true", help="hold the spin at V/r0")
     add("--picture", action="store_true", help="draw the wheelset on its rails")
     add("--film", action="store_true", help="a film of the last run's end")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        changes = {"creep": arguments.creep, **profiles_from(arguments).changes}
+        changes = {**law_changes(arguments.creep), **profiles_from(arguments).changes}
         if arguments.friction is not None:
             changes["friction"] = arguments.friction
         model = vehicle(arguments.set, arguments.driven, **changes)

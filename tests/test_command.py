@@ -250,6 +250,11 @@ def test_exit_status_of_a_process(tmp_path):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1 and "cannot be written" in done.stderr
     assert not any(path.name.endswith(".png") for path in tmp_path.iterdir())
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = outside("info", stdout=writing, stderr=subprocess.PIPE)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (0, ""), "who reads may stop before the end"
     if os.path.exists("/dev/full"):
         with open("/dev/full", "w") as full:
             done = outside("info", stdout=full, stderr=subprocess.PIPE)

@@ -9,6 +9,7 @@ Drawn by Exudyn's ray tracer without a display. MP4 needs imageio-ffmpeg or the 
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import subprocess
 import warnings
@@ -280,10 +281,12 @@ def mp4_writer() -> Callable[[Path, Iterator[np.ndarray], float], None] | None:
         done = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
         assert done.stdin is not None and done.stderr is not None
         try:
-            done.stdin.write(np.ascontiguousarray(first).tobytes())
-            for picture in pictures:
-                done.stdin.write(np.ascontiguousarray(picture).tobytes())
-            done.stdin.close()
+            # Where it ends early (a full disk), its own words say why.
+            with contextlib.suppress(BrokenPipeError):
+                done.stdin.write(np.ascontiguousarray(first).tobytes())
+                for picture in pictures:
+                    done.stdin.write(np.ascontiguousarray(picture).tobytes())
+                done.stdin.close()
             said = done.stderr.read().decode(errors="replace")
         finally:
             code = done.wait()

@@ -275,11 +275,7 @@ def _run_parsed(
         with warnings.catch_warnings():
             warnings.showwarning = _shown_by(prog, warnings.showwarning)
             numbers = run(arguments)
-        if arguments.json:
-            print(json.dumps(_finite(numbers), default=plain, allow_nan=False))
-        elif show is not None:
-            show(numbers)
-        sys.stdout.flush()
+        _tell(numbers, arguments.json, show)
     except WheelsetError as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
@@ -288,10 +284,6 @@ def _run_parsed(
             show(interrupt.numbers)
         print(f"{prog}: interrupted; finished results are kept", file=sys.stderr)
         return 130
-    except BrokenPipeError:
-        # Who reads has heard enough (`... | head`).
-        _forget_output()
-        return 0
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
         print(f"{prog}: {where}{error.strerror or error}", file=sys.stderr)
@@ -301,6 +293,20 @@ def _run_parsed(
         print(f"{prog}: not enough memory for so many numbers", file=sys.stderr)
         return 2
     return 0
+
+
+def _tell(
+    numbers: dict[str, Any], as_json: bool, show: Callable[[dict[str, Any]], None] | None
+) -> None:
+    """Print numbers; who reads may have heard enough before the end (`... | head`)."""
+    try:
+        if as_json:
+            print(json.dumps(_finite(numbers), default=plain, allow_nan=False))
+        elif show is not None:
+            show(numbers)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _forget_output()
 
 
 def _finite(value: Any) -> Any:

@@ -212,11 +212,13 @@ def chosen_changes(arguments: argparse.Namespace) -> dict[str, Any]:
         if kind in changes:
             changes[kind] = script_profile(changes[kind], kind, arguments.smoothing)
     if "creep" in changes:
-        word = changes["creep"]
-        changes["creep"] = word.law
-        if word.parameters:
-            changes["law_parameters"] = word.parameters
+        changes |= law_changes(changes["creep"])
     return changes
+
+
+def law_changes(word: CreepWord) -> dict[str, Any]:
+    """A creep law and, where it has any, its parameters, as `catalogue.Changes` takes them."""
+    return {"creep": word.law} | ({"law_parameters": word.parameters} if word.parameters else {})
 
 
 def chosen_vehicle(arguments: argparse.Namespace) -> ChosenVehicle:

@@ -23,6 +23,7 @@ from exudyn_wheelset.front.vehicle_options import (
     add_vehicle_options,
     chosen_vehicle,
     law_and_parameters,
+    law_changes,
 )
 from exudyn_wheelset.geometry.rolling_pair import rolling_pair
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
@@ -75,10 +76,7 @@ def case_numbers(
         if name in _PROFILES:
             changes[name] = script_profile(value, name, smoothing)
         elif name == "creep":
-            law = law_and_parameters(value)
-            changes |= {"creep": law.law}
-            if law.parameters:
-                changes["law_parameters"] = law.parameters
+            changes |= law_changes(law_and_parameters(value))
         elif name in ("friction", "conicity", "damping", "gauge", "gauge_depth", "inclination"):
             changes[name] = value
         else:
