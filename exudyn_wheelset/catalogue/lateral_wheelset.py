@@ -88,7 +88,9 @@ PAPER_SPRINGS = ((2.85e5, 1.84e5), (2.85e6, 1.84e6), (9.12e6, 5.84e6))
 
 
 def paper_parameters(spring_set: int, **changes: float) -> LateralParameters:
-    """Parameters of Table 1 with spring set 1, 2 or 3.
+    """Parameters of Table 1 with spring set 1, 2 or 3, SI; changes: of LateralParameters, by name.
+
+    Raises WheelsetError for another set and for impossible values.
 
     Examples
     --------

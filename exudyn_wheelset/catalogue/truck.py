@@ -295,6 +295,7 @@ def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truc
 
     The source computes the shear modulus with a slip of sign (1.438e11 Pa); here it is
     E/(2 (1 + nu)) = 8.27e10 Pa. contact: changes to the arguments of `contact_parameters`.
+    Raises WheelsetError for profiles and contact numbers that cannot be.
 
     Examples
     --------

@@ -63,7 +63,7 @@ def profile_report(
     [m] (points to the automatic curve); noise_every_second, noise_every_fourth [m], larger where
     the errors of neighbours are alike; curvature_noise [1/m]; conicity_1mm, conicity_3mm,
     automatic_conicity_1mm, automatic_conicity_3mm, spread_1mm, spread_3mm [-] (None without
-    contact).
+    contact). Raises WheelsetError where profile and partner are both wheels or both rails.
 
     Examples
     --------

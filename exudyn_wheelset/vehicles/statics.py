@@ -117,7 +117,8 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
 def with_free_lengths(vehicle: Vehicle) -> Vehicle:
     """The same vehicle described by free lengths: it settles to where it was drawn.
 
-    Each connection's offset becomes its preload over its stiffness, where it has any.
+    Each connection's offset [m] becomes its preload [N] over its stiffness, where it has any.
+    Raises WheelsetError for a vehicle that does not stand.
 
     Examples
     --------

@@ -142,7 +142,8 @@ def hopf_points(
     """All speeds in [low, high] m/s at which an oscillatory pair crosses zero, by rising speed.
 
     Warns (WheelsetWarning) where the creep law is not linear about one of the equilibria or has
-    another slope there than the exact law (see `law_checks`).
+    another slope there than the exact law (see `law_checks`). Raises AnalysisError for speeds out
+    of order and where the vehicle has no steady run.
 
     Examples
     --------
