@@ -162,7 +162,7 @@ def _of_vehicle(vehicle: Any) -> list[tuple[str, str]]:
         raise WheelsetError(
             f"{vehicle!r} has no description with a contact: give a Vehicle, or a catalogue name"
         )
-    found += [(f"normal contact {contact.normal}", key) for key in _NORMAL[contact.normal]]
+    found += [(f"normal contact {contact.normal}", key) for key in _NORMAL.get(contact.normal, ())]
     law = contact.creep if isinstance(contact.creep, str) else ""
     if law in CREEP_LAWS:
         found += [(f"creep law {law}", key) for key in _LAWS.get(law, ())]
