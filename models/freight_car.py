@@ -109,8 +109,11 @@ def _keep(out: Path, numbers: dict[str, Any], motions: dict[str, Motion]) -> lis
     over.set(xlabel="friction of the wedges [-]", ylabel="linear critical speed [m/s]")
     hunting.set(xlabel="time [s]", ylabel="y of the leading wheelset [mm]")
     wedge.set(xlabel="bolster against side frame [mm]", ylabel="friction over slip force [-]")
-    for axes in (over, hunting, wedge):
-        axes.legend(fontsize=8, frameon=False)
+    over.legend(fontsize=8, frameon=False)
+    for axes in (hunting, wedge):
+        axes.legend(
+            fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False
+        )
     records = {load: motion.record for load, motion in motions.items()}
     files.append(write_figure(out / "freight_car.png", figure))
     files.append(write_json(out / "freight_car.json", numbers, **records))
