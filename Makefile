@@ -4,9 +4,11 @@ export MPLBACKEND = Agg
 PYTHON ?= python3
 OLDEST ?= .oldest
 
-.PHONY: all style types test quick kernels wheel oldest
+SITE ?= site
 
-all: style types test
+.PHONY: all style types site test quick kernels wheel oldest
+
+all: style types site test
 
 style:
 	ruff check .
@@ -15,6 +17,10 @@ style:
 types:
 	mypy
 	mypy --strict --follow-imports=silent tests/typed_program.py
+
+# Needs the extra [docs]; open $(SITE)/index.html.
+site:
+	sphinx-build -W --keep-going -q -b html docs $(SITE)
 
 test:
 	pytest --durations=15
