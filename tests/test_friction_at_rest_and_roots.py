@@ -32,7 +32,7 @@ from exudyn_wheelset import (
     with_free_lengths,
 )
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode
-from exudyn_wheelset.systems.vehicle_system import vehicle_system
+from exudyn_wheelset.systems.vehicle_system import followed_step, vehicle_system
 from exudyn_wheelset.vehicles.description import Load
 from exudyn_wheelset.vehicles.rest import find_rest
 
@@ -282,6 +282,22 @@ def test_wedges_that_hold_along_the_track_yaw_the_bolster_with_its_wheelsets():
     assert shares[0] == pytest.approx(1.0, abs=0.2)
     assert shares[1] < 0.6
     assert speeds[1] < 0.7 * speeds[0]
+
+
+def test_time_steps_follow_holds_of_short_presliding():
+    """A hold relaxes at |u|/presliding: RK44 follows 2 over that, at half a metre a second."""
+    car = catalogue.freight_car(False)
+    assert followed_step(car) == pytest.approx(5e-4)
+    short = replace(
+        car,
+        connections=tuple(
+            replace(one, element=replace(one.element, presliding=2e-5))
+            if isinstance(one.element, FrictionWedge)
+            else one
+            for one in car.connections
+        ),
+    )
+    assert followed_step(short) == pytest.approx(2.0 * 2e-5 / 0.5)
 
 
 def test_every_hold_is_a_neutral_state_by_its_name():
