@@ -9,7 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_wheelset import Contact, FrictionWedge, Spring, catalogue
+from exudyn_wheelset import (
+    AnalysisError,
+    Contact,
+    FrictionWedge,
+    Spring,
+    WheelsetError,
+    catalogue,
+    limit_cycles,
+)
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.system import DynamicSystem, SimulationError, as_system
@@ -149,3 +157,17 @@ def test_an_element_that_adds_its_own_items_is_left_to_exudyn():
     first, *others = truck.connections
     changed = replace(truck, connections=(replace(first, element=Own(first.element)), *others))
     assert as_system(changed).compiled is None
+
+
+@pytest.mark.parametrize("numbers", [3, 200])
+def test_a_state_of_another_size_is_refused_before_the_kernels_read_it(numbers):
+    """The kernels know addresses only: beyond the end of a state lies other memory."""
+    system = as_system(catalogue.three_axle_truck())
+    wrong = np.zeros(numbers)
+    for ask in (system.derivatives, system.jacobians):
+        with pytest.raises(AnalysisError, match=rf"give \(m, {system.size}\)"):
+            ask(wrong[None, :], 20.0)
+    with pytest.raises(AnalysisError, match=rf"give \(m, {system.size}\)"):
+        system.jacobian(wrong, 20.0)
+    with pytest.raises(WheelsetError, match=f"give {system.size} numbers"):
+        limit_cycles(system, wrong, (20.0, 40.0))

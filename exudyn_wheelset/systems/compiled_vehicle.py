@@ -9,6 +9,7 @@ import numpy as np
 from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.moving_frame import BODY, CENTRE, INERTIA, MASS, MOTION
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems import vehicle_kernel as kernel
 from exudyn_wheelset.systems.exudyn_layout import Layout
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP
@@ -79,21 +80,31 @@ class CompiledVehicle:
 
     def rates(self, states: Array) -> Array:
         """Rates (m, n) of states (m, n)."""
-        states = np.ascontiguousarray(states, dtype=float)
+        states = self._checked(states)
         rates = np.empty_like(states)
         kernel.rates_at(self._address, states, rates)
         return rates
 
     def jacobians(self, states: Array) -> Array:
         """Jacobians (m, n, n) at states (m, n), by central differences of the bodies' own laws."""
-        states = np.ascontiguousarray(states, dtype=float)
+        states = self._checked(states)
         matrices = np.empty((*states.shape, states.shape[1]))
         kernel.jacobians_at(self._address, states, DIFFERENCE_STEP, matrices)
         return matrices
 
+    def _checked(self, states: Array) -> Array:
+        """States (m, n) as the kernels read them: beyond their end there is other memory."""
+        states = np.ascontiguousarray(states, dtype=float)
+        if states.ndim != 2 or states.shape[1] != len(self._state):
+            raise AnalysisError(
+                f"states of the shape {states.shape}: give (m, {len(self._state)}), one row a state"
+            )
+        return states
+
     def run(self, state: Array, time: float, step: float, samples: Array, steps: int) -> int:
         """Carry a state (n,) on from a time [s], in place, by Runge-Kutta steps [s]; a row of
         samples (m, n) after each `steps` of them. Returns the number of finite rows."""
+        self._checked(state[None, :])
         finite = int(kernel.run_at(self._address, state, float(time), step, samples, steps))
         self._speed[1] = 0.0
         return finite

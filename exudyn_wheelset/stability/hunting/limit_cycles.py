@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
@@ -71,7 +72,7 @@ def limit_cycles(
     66.7
     """
     system = as_system(vehicle)
-    low, high = map(float, speeds)
+    low, high = numbers("speeds (low, high)", speeds, 2, "m/s")
     if not low < high:
         raise AnalysisError(f"speeds = ({low:g}, {high:g}) m/s must be (low, high), low below high")
     settings = replace(settings or ContinuationSettings(), **changes)
@@ -96,8 +97,8 @@ def limit_cycles(
             if isinstance(start, Orbit):
                 orbit = start
             else:
-                at = high if start_speed is None else float(start_speed)
-                state = np.asarray(start, dtype=float)
+                at = high if start_speed is None else number("start_speed", start_speed, "m/s")
+                state = np.array(numbers("start, a state,", start, system.size, "SI"))
                 try:
                     orbit = orbit_near(
                         system, state, at, intervals=settings.intervals, degree=settings.degree
