@@ -14,6 +14,7 @@ LAYERS = (
         "arrays",
         "constants",
         "checking",
+        "spelling",
         "locking",
         "compilation",
         "addresses",

@@ -25,6 +25,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe, read_record, write_record
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
@@ -103,6 +104,7 @@ class CriticalDisturbances:
 _ARRAYS = ("speeds", "critical", "bracket", "edge")
 
 
+@spelt
 def critical_disturbance(
     vehicle: Any,
     speeds: float | Sequence[float] | Array,

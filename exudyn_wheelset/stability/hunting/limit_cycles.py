@@ -21,6 +21,7 @@ from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.aligned import Point
 from exudyn_wheelset.stability.hunting.branch import Branch, Fold, NamedColumns, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
@@ -41,6 +42,7 @@ from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 
+@spelt
 def limit_cycles(
     vehicle: Any,
     start: CriticalPoint | Orbit | Sequence[float] | Array,

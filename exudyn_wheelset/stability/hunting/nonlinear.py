@@ -23,9 +23,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
@@ -117,6 +119,7 @@ class NonlinearCriticalSpeed(float):
         )
 
 
+@spelt
 def nonlinear_critical_speed(
     vehicle: Any,
     method: Method | None = None,
@@ -163,6 +166,9 @@ def nonlinear_critical_speed(
         method = "descent" if len(system.trucks) > 1 else "continuation"
     if method not in ("continuation", "descent"):
         raise AnalysisError(f"method = {method!r} is not one of 'continuation', 'descent'")
+    for what, value in (("low", low), ("high", high)):
+        if value is not None:
+            number(what, value, "m/s")
     if hopf is None:
         hopf = _first_hopf(system, low, high)
     low = 0.4 * hopf.speed if low is None else float(low)

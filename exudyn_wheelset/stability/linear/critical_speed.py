@@ -18,6 +18,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.linear.crossings import (
     CriticalPoint,
     check_range,
@@ -39,6 +40,7 @@ from exudyn_wheelset.systems.system import Array
 NEAR_ZERO = 0.5
 
 
+@spelt
 def linear_critical_speed(
     vehicle: Any,
     low: float,
@@ -97,7 +99,7 @@ def linear_critical_speed(
 
 def _warn(spectra: Spectra, found: CriticalPoint) -> None:
     if found.law is not None:
-        warn_of_law(spectra.system.name, [(found.speed, found.law)], level=4)
+        warn_of_law(spectra.system.name, [(found.speed, found.law)], level=5)
 
 
 def _first_hunting(

@@ -19,8 +19,10 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from scipy.optimize import brentq
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
 from exudyn_wheelset.stability.linear.linearisation import linearised
 from exudyn_wheelset.stability.linear.modes import NAMELESS, mode_name
@@ -136,6 +138,7 @@ def stability_changes(
     return sorted(found)
 
 
+@spelt
 def hopf_points(
     vehicle: Any, low: float, high: float, *, points: int = 80, tolerance: float = 1e-6
 ) -> list[CriticalPoint]:
@@ -155,7 +158,8 @@ def hopf_points(
     system = as_system(vehicle)
     changes = stability_changes(system, low, high, points=points, tolerance=tolerance)
     found = [change for change in changes if change.kind == "hopf"]
-    warn_of_law(system.name, [(point.speed, point.law) for point in found if point.law is not None])
+    laws = [(point.speed, point.law) for point in found if point.law is not None]
+    warn_of_law(system.name, laws, level=4)
     return found
 
 
@@ -168,7 +172,9 @@ def divergence_points(
 
 
 def check_range(low: float, high: float, points: int) -> None:
-    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+    number("low", low, "m/s")
+    number("high", high, "m/s")
+    if not low < high:
         raise AnalysisError(f"the range of speeds must rise from low to high, got {low} to {high}")
     if points < 2:
         raise AnalysisError(f"a scan needs at least 2 points, got {points}")

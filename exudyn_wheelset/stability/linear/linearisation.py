@@ -9,15 +9,17 @@ Speeds in m/s, eigenvalues in 1/s, frequencies in Hz.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.linear.law_checks import LawCheck, check_law, warn_of_law
 from exudyn_wheelset.stability.linear.modes import (
     HUNTING_SHARE,
@@ -118,6 +120,7 @@ class RootLocus:
     states: Array
 
 
+@spelt
 def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Linearisation:
     """Eigenvalues and eigenvectors about the equilibrium at a forward speed [m/s].
 
@@ -133,12 +136,12 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     True
     """
     system = as_system(vehicle)
-    linear = linearised(system, speed, guess)
+    linear = linearised(system, number("speed", speed, "m/s"), guess)
     row = linear.hunting_row
     if row is None:
         return linear
     law = check_law(system, linear.state, linear.speed, linear.eigenvectors[:, row])
-    warn_of_law(system.name, [(linear.speed, law)])
+    warn_of_law(system.name, [(linear.speed, law)], level=4)
     return replace(linear, law=law)
 
 
@@ -185,6 +188,7 @@ def hunting_mode(linear: Linearisation) -> tuple[complex, Array]:
     return complex(linear.eigenvalues[row]), linear.eigenvectors[:, row]
 
 
+@spelt
 def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     """Eigenvalues at `speeds` (m,) [m/s], each root followed from speed to speed.
 
@@ -198,7 +202,10 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     array([60., 75.])
     """
     spectra = Spectra(as_system(vehicle))
-    speeds = np.asarray(speeds, dtype=float)
+    given = list(speeds) if isinstance(speeds, Iterable) else [speeds]
+    speeds = np.array([number("one of speeds", one, "m/s") for one in given])
+    if not len(speeds):
+        raise AnalysisError("speeds = []: give one speed [m/s] or more")
     rows: list[Array] = []
     for index, speed in enumerate(speeds):
         values = spectra.eigenvalues(speed)

@@ -1,5 +1,6 @@
 """The connections of vehicles, one element a module, all behind one protocol (protocol.py)."""
 
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.vehicles.elements.air_spring import AirSpring
 from exudyn_wheelset.vehicles.elements.anti_roll_bar import AntiRollBar
 from exudyn_wheelset.vehicles.elements.axle_box import AxleBox
@@ -39,3 +40,7 @@ __all__ = [
     "Spring",
     "TractionRod",
 ]
+
+for _name in __all__:
+    if _name not in ("Element", "End", "Law"):
+        spelt_class(globals()[_name])
