@@ -96,9 +96,14 @@ def test_a_stiff_vehicle_shifts_its_load_by_the_couple_of_inertia_and_weight(spe
 
 
 def test_forces_and_moments_balance():
-    """Rails, drawbar and weight are what masses on circles need: m w x (w x r) about the centre."""
+    """Rails, drawbar and weight are what masses on circles need: m w x (w x r) about the centre.
+
+    With "hertz", which has an equilibrium here; with stored energy the leading flange stands on a
+    jump of its creep force, and the mean of a second is no equilibrium.
+    """
     radius, cant, speed = 300.0, 0.12, 18.0
-    curve = steady_curve(COACH, radius, cant, speed)
+    coach = COACH.replace("contact.normal", "hertz")
+    curve = steady_curve(coach, radius, cant, speed)
     system, state = curve.system, curve.state
     coordinates, velocities, _ = system.layout.expand(state)
     roll = -math.asin(cant / 1.5)
@@ -108,9 +113,9 @@ def test_forces_and_moments_balance():
     data = system.mbs.systemData
     data.SetODE2Coordinates(coordinates)
     data.SetODE2Coordinates_t(velocities)
-    force, moment, weight = np.zeros(3), np.zeros(3), COACH.mass * GRAVITY
+    force, moment, weight = np.zeros(3), np.zeros(3), coach.mass * GRAVITY
     centres, turns = [], []
-    solids = [getattr(part, "wheelset", part) for part in COACH.parts]
+    solids = [getattr(part, "wheelset", part) for part in coach.parts]
     for k, (solid, centre) in enumerate(zip(solids, system.centres, strict=True)):
         place = centre + coordinates[6 * k : 6 * k + 3]
         own = -solid.mass * GRAVITY * up
@@ -135,7 +140,7 @@ def test_forces_and_moments_balance():
     moment += np.cross(place, [pull, 0.0, 0.0])
     # Preloads keep their direction in the track and act each at its own end: sheared springs put a
     # couple on the vehicle (docs/decisions/connections-in-one-compiled-call.md).
-    for strut, preload in zip(find_rest(COACH).struts, find_rest(COACH).preloads, strict=True):
+    for strut, preload in zip(find_rest(coach).struts, find_rest(coach).preloads, strict=True):
         if strut.law.middle or strut.law.kind == ROD:
             continue
         ends = [
@@ -319,9 +324,10 @@ def test_mirrored_vehicles_on_mirrored_track():
     rough = Irregularity.from_psd("ERRI B176 low", 5, length=120.0, fade_in=20.0)
     coach = COACH.on(replace(COACH.track, layout=layout, irregularity=rough))
     one, other = (simulate(vehicle, 20.0, 2.0) for vehicle in (coach, coach.mirrored()))
-    # Rounding is 2e-16 m and 4e-12 of the forces.
+    # Rounding is 2e-16 m and 4e-12 of the forces of "hertz"; loads of stored energy are stationary
+    # to some 1e-9.
     assert one.y == pytest.approx(-other.y, abs=1e-9 * np.abs(one.y).max())
-    assert pytest.approx(other.Q[:, :, ::-1], abs=1e-9 * np.abs(one.Q).max()) == one.Q
+    assert pytest.approx(other.Q[:, :, ::-1], abs=2e-8 * np.abs(one.Q).max()) == one.Q
 
 
 def test_a_suspended_body_leans_as_its_springs_say():
