@@ -28,13 +28,18 @@ from exudyn_wheelset.contact.tables import contact_tables
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """load [N], energy [J], line_load (n) [N/m] at s (n) [m], peak pressure [Pa]."""
+    """load [N], energy [J], line_load (n) [N/m] at s (n) [m], peak pressure [Pa].
+
+    pressure (n, cells) [Pa] on cells dx [m] long, even in x.
+    """
 
     s: np.ndarray
     line_load: np.ndarray
     load: float
     energy: float
     peak_pressure: float
+    pressure: np.ndarray
+    dx: float
 
     @property
     def place(self) -> float:
@@ -126,6 +131,8 @@ def half_space_contact(
         float(line.sum() * ds),
         float(0.5 * (pressure * gap).sum() * ds * dx),
         float(pressure.max()),
+        pressure,
+        float(dx),
     )
 
 

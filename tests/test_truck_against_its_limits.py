@@ -137,7 +137,7 @@ def test_modes_of_a_mirror_symmetric_truck_are_lateral_or_vertical():
     # Roots of both kinds that nearly agree leave their eigenvectors open to rounding.
     values = linear.eigenvalues
     apart = np.array([np.sort(np.abs(values - value))[1] > 1e-2 for value in values])
-    assert apart.sum() > 20
+    assert apart.sum() >= 20
     assert np.all(np.minimum(share, 1.0 - share)[apart] < 1e-6)
 
 

@@ -87,7 +87,7 @@ class Contact:
     """How wheels and rails press and rub on each other.
 
     normal: "hertz" (curvature averaged over the patch), "hertz-local" (curvature at the deepest
-    point), "virtual-penetration", "energy" (the gradient of one stored energy, at three to seven
+    point), "virtual-penetration", "energy" (the gradient of one stored energy, at two to six
     times the cost) or "strips" (patches that are no ellipse, near-conformal contact, at some
     thirty times); creep: name of a creep law, or a compiled function of one's own
     (`register_creep_law`); friction [-] of both rails everywhere; shear_modulus [Pa]; poisson [-];

@@ -35,8 +35,9 @@ without and with it, gain g = U_2/U_1 - 1,
 
     V(U_1, U_2) = U_1 (1 + s(g)),   s = 0 for small g, s = g for large, smooth between.      (2)
 
-A lobe that dies in another's flank goes on as that shoulder's load. While the valley between two
-lobes is shallow (q from 0 to 1 with its depth, loads.py), U_0 without the lesser counts as well:
+A lobe that dies in another's flank goes on as that shoulder's load. (1) may be stationary at more
+than one place; a set's energy is the greatest of those found. While the valley between two lobes is
+shallow (q from 0 to 1 with its depth, load_sets.py), U_0 without the lesser counts as well:
 
     U = q V(U_1, U_2) + (1 - q) V(U_0, U_1),                                               (3)
 
@@ -58,11 +59,14 @@ from exudyn_wheelset.contact.gap_spline import average
 
 # (p - u)/approach at the end of an ellipse that asks for a second one; an end over nothing counts
 # half. Gains of (2) at this misfit are below what it lets through.
-MISFIT = 0.062
+MISFIT = 0.06
 # The step after one of this size, relative, is about its square: forces are right to 2e-6, those
 # of two loads that share a lobe, which a step changes by more, to 1e-6.
 ALONE, TOLERANCE = 1.2e-3, 2.0e-5
 MOST_STEPS = 40
+# A load narrower than this part of the spacing of lines has come to nothing: means over it are
+# differences of almost equal numbers.
+NARROWEST = 0.03
 
 
 @compiled
@@ -307,6 +311,7 @@ def stationary(table, side, loads, count, modulus, work):
         loads[0] = kept[0]
     damping = 0.0
     best = -1.0e300
+    least = NARROWEST * side.line_spacing
     for step in range(MOST_STEPS):
         total = 0.0
         for k in range(count):
@@ -317,7 +322,7 @@ def stationary(table, side, loads, count, modulus, work):
             total += loads[k].force
         left = 0
         for k in range(count):
-            if loads[k].force > 1.0e-8 * total:
+            if loads[k].force > 1.0e-8 * total and loads[k].b > least:
                 if left != k:
                     loads[left] = loads[k]
                 left += 1

@@ -96,7 +96,7 @@ def _patch_creep(k, patches, shares, count, parameters):
             if shares[j].lobe == share.partner:
                 rest = 1.0 - share.share
                 creepage = Creepage(
-                    creepage.x + rest * (patches[j].creep_x - creepage.x),
+                    creepage.x + rest * (patches[j].creep_x - creepage.x) + share.faster,
                     creepage.y + rest * (patches[j].creep_y - creepage.y),
                     creepage.spin + rest * (patches[j].spin - creepage.spin),
                 )
@@ -197,6 +197,8 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
             patch.creep_x, patch.creep_y, patch.spin = creepage_at(slip, px, py, pz, ny, nz)
             slipping = slip.speed * math.hypot(patch.creep_x, patch.creep_y)
             patch.friction = patch_friction(options, hand, patch.angle, slipping)
+            faster = slip.about_y * shares[k].shift_z - slip.about_z * shares[k].shift_y
+            shares[k].faster = faster / slip.speed
         for k in range(count):
             patch = patches[k]
             px, py, pz = patch.position[0], patch.position[1], patch.position[2]

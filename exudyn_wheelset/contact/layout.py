@@ -30,10 +30,12 @@ from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
 from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
 
 MOST_LOBES = 4
-# A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic (energy.py);
-# while lobes merge, what they become stands beside them.
+# A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic.
 MOST_ELLIPSES = MOST_LOBES + 1
-MOST_PATCHES = 2 * MOST_LOBES
+# Sets of loads between which the energy is blended (energy.py).
+LOBES, ONE_MORE, MERGED = range(3)
+SETS = 3
+MOST_PATCHES = MOST_LOBES
 MOST_LINES = 640
 STRIPS_A_LOBE = 20
 MOST_NODES = 320
@@ -151,10 +153,13 @@ STRIP = _numbers(
 ELLIPSE = _numbers("force", "a", "b")
 # A patch of separation s is s times `own` and (1 - s) share times `merged`, which it shares with
 # the patch of lobe `partner`; damping: the factor that damping puts on elastic normal forces;
-# first_strip, strip_count: its strips, if it has any.
+# place, arc: of the rail and of the wheel in the load's middle [m]; shift_y, shift_z: from the mean
+# of both patches' places to that of `merged` [m], whose creepage along x is so much `faster`;
+# first_strip, strip_count: its strips, if any.
 SHARE = _record(
-    ("lobe", "i8"), ("partner", "i8"), ("separation", "f8"), ("share", "f8"),
-    ("own", ELLIPSE), ("merged", ELLIPSE), ("damping", "f8"),
+    ("lobe", "i8"), ("last_lobe", "i8"), ("partner", "i8"), ("separation", "f8"), ("share", "f8"),
+    ("own", ELLIPSE), ("merged", ELLIPSE), ("damping", "f8"), ("place", "f8"), ("arc", "f8"),
+    ("shift_y", "f8"), ("shift_z", "f8"), ("faster", "f8"),
     ("first_strip", "i8"), ("strip_count", "i8"),
 )  # fmt: skip
 _SHAPES: dict[str, tuple[int, ...]] = {"float": (), "tuple[float, float, float]": (3,)}
@@ -176,13 +181,14 @@ LOAD = _record(
 RANGE = _record(("first", "i8"), ("last", "i8"))
 # A set of loads: how many, the energy [J] and the weight of its forces.
 SET = _record(("count", "i8"), ("energy", "f8"), ("weight", "f8"))
-# The loads of a lobe together: force [N], its sums of place (from the lobe's foot), of second
-# moments, a^2, depth and energy; weight of their sets, with it the peak pressure [Pa]; the lines
-# on which they press, first to before end, and the cells of their range.
+# The loads of a lobe together: force [N], energy; shaping: force of those of positive weight, its
+# sums of place (from the lobe's foot), of second moments, a^2 and depth; weight of their sets, with
+# it the peak pressure [Pa]; the lines on which they press, first to before end, and the cells of
+# their range.
 WHOLE = _record(
     ("count", "i8"), ("force", "f8"), ("place", "f8"), ("second", "f8"), ("along", "f8"),
     ("depth", "f8"), ("energy", "f8"), ("weight", "f8"), ("peak", "f8"),
-    ("first", "i8"), ("end", "i8"), ("low", "i8"), ("high", "i8"),
+    ("first", "i8"), ("end", "i8"), ("low", "i8"), ("high", "i8"), ("shaping", "f8"),
 )  # fmt: skip
 # Lines of force of the separation x of two lobes: rail place, wheel arc and dx/dp.
 LINE = _numbers("place", "arc", "weight")
@@ -190,11 +196,14 @@ COUPLING = _numbers(
     "total", "r", "l1", "t1", "l2", "t2", "rr", "rl1", "rt1", "rl2", "rt2",
     "l1l1", "l1t1", "t1t1", "l2l2", "l2t2", "t2t2", "l1l2", "l1t2", "t1l2", "t1t2",
 )  # fmt: skip
+# pair: first of two lobes that merge, or -1, pair_share: its part of what they carry.
 WORK = _record(
     ("candidates", CANDIDATE, (MOST_LOBES,)), ("lobes", LOBE, (MOST_LOBES,)),
     ("shares", SHARE, (MOST_PATCHES,)), ("depths", "f8", (MOST_NODES,)),
     ("strips", STRIP, (MOST_LOBES * STRIPS_A_LOBE,)),
-    ("loads", LOAD, (3, MOST_ELLIPSES)), ("sets", SET, (3,)), ("kept", LOAD, (MOST_ELLIPSES,)),
+    ("loads", LOAD, (SETS, MOST_ELLIPSES)), ("sets", SET, (SETS,)),
+    ("kept", LOAD, (MOST_ELLIPSES,)), ("trial", LOAD, (MOST_ELLIPSES,)),
+    ("pair", "i8"), ("pair_share", "f8"),
     ("coupling", COUPLING), ("merging", LINE, (3,)), ("wrenches", "f8", (2, 5)),
     ("matrix", "f8", (3 * MOST_ELLIPSES, 3 * MOST_ELLIPSES + 1)),
     ("first_node", "i8"), ("final_node", "i8"), ("ranges", RANGE, (MOST_LOBES,)),

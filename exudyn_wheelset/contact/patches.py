@@ -310,6 +310,7 @@ def side_patches(table, hand, axle, parameters, work, patches):
         share.separation = separation
         share.lobe = k
         share.partner = partner
+        share.shift_y = share.shift_z = 0.0
         px, py, pz, _, _, radius, wheel_y, _ = wheel_point(table, side, place, axle)
         rail_y, _, _, _, _, _ = curve_point(table, side.rail, at)
         patch = patches[kept]

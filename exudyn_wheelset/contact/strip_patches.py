@@ -124,6 +124,7 @@ def strip_patches(table, side, axle, parameters, work, patches):
         share.own.b = ellipse.b
         share.separation = 1.0
         share.partner = -1
+        share.shift_y = share.shift_z = 0.0
         patch = patches[kept]
         patch.a = ellipse.a
         patch.b = ellipse.b

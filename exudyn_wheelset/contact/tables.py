@@ -24,7 +24,7 @@ from exudyn_wheelset.profiles import Profile
 NODE_SPACING = 2.0e-3
 GRID_SPACING = 0.25e-3
 # Lines of force of contact/gap_spline.py, and how many more go on straight beyond the rail's ends.
-LINE_SPACING = 0.25e-3
+LINE_SPACING = 0.2e-3
 LINES_BEYOND = 24
 # Steeper parts (flange back, web side of the head) never carry a wheel; without them height is a
 # function of the lateral position.
