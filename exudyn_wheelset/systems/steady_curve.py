@@ -191,8 +191,7 @@ def steady_curve(
         warnings.warn(
             f"{system.name} in R = {radius:g} m at {speed:g} m/s runs on a jump of its contact "
             f"forces and chatters by {1e3 * system.unsteadiness:.2g} mm or mrad: what is given is "
-            "the mean of a second; the jump belongs to patches that merge (normal='energy' has "
-            "less of it)",
+            "the mean of a second; the jump belongs to patches that merge",
             WheelsetWarning,
             stacklevel=2,
         )
