@@ -13,6 +13,8 @@ import pytest
 
 from exudyn_wheelset import AnalysisError, design, nonlinear_critical_speed
 from exudyn_wheelset.catalogue import vehicle
+from exudyn_wheelset.stability.hunting.collocation import Collocation
+from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import fold_near, prepared
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
@@ -220,3 +222,22 @@ def test_design_reaches_what_is_wanted():
         design(form, {"linear_critical_speed": 3.0}, vary=["quadratic"], low=1.0, high=3.0, steps=2)
     with pytest.raises(AnalysisError, match="cannot be asked for"):
         design(form, {"comfort": 3.0}, vary=["quadratic"])
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_left_null_vector_is_the_transposed_solution(mirrored):
+    """<w, defects> is the speed that the equations themselves give for any defects."""
+    system = NormalForm().dynamic_system()
+    (hopf,) = hopf_points(system, 1.0, 3.0)
+    (fold,) = limit_cycles(system, hopf, (1.5, 2.5)).folds
+    orbit = fold.orbit.halved(-np.ones(2)) if mirrored else fold.orbit
+    equations = Collocation(system, orbit.period, 1.0, orbit.mirror)
+    condensed = equations.condense(orbit)
+    windows = equations.windows(orbit)
+    rows = [equations.phase(orbit), equations.inner(orbit.mesh, Direction(windows, 0.0, 0.0))]
+    weights = condensed.speed_weights(rows)
+    random = np.random.default_rng(3)
+    for _ in range(3):
+        defects = random.normal(size=weights.shape)
+        speed = condensed.solve(defects, rows, [0.0, 0.0]).speed
+        assert np.sum(weights * defects) == pytest.approx(speed, rel=1e-9)
