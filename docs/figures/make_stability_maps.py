@@ -29,16 +29,20 @@ def draw_maps(conicity, friction, gauge) -> None:
     write_figure(PLACE / "stability_maps.png", figure)
 
 
-def draw_friction_and_car(friction, car) -> None:
-    """The S1002 wheelset over friction, and a car over the stiffness of its axle guidance."""
-    figure, axes = new_figure(9.5, 4.2, 1, 2)
+def draw_friction_and_guidance(friction, spring, car) -> None:
+    """The S1002 wheelset over friction and stiffness, a car over that of its axle guidance."""
+    figure, axes = new_figure(13.0, 4.2, 1, 3)
     friction.plot(axes[0, 0])
     axes[0, 0].set_title("S1002 wheelset on UIC60 1:40", fontsize=10)
-    car.plot(axes[0, 1])
-    axes[0, 1].set_title("DTU car", fontsize=10)
-    axes[0, 1].set_xlabel("longitudinal stiffness of the primary springs [N/m]")
-    axes[0, 1].get_legend().remove()
-    write_figure(PLACE / "stability_maps_friction_car.png", figure)
+    spring.plot(axes[0, 1])
+    axes[0, 1].set_title("S1002 wheelset on UIC60 1:40", fontsize=10)
+    axes[0, 1].set_xlabel("longitudinal stiffness of a spring [N/m]")
+    car.plot(axes[0, 2])
+    axes[0, 2].set_title("DTU car", fontsize=10)
+    axes[0, 2].set_xlabel("longitudinal stiffness of the primary springs [N/m]")
+    for ax in axes[0, 1:]:
+        ax.get_legend().remove()
+    write_figure(PLACE / "stability_maps_friction_stiffness.png", figure)
 
 
 def draw_tornado(gradient) -> None:
@@ -62,9 +66,18 @@ def main() -> None:
             most=80,
         ),
     )
-    draw_friction_and_car(
+    draw_friction_and_guidance(
         stability_map(
             vehicle("s1002", normal="hertz"), "speed", "friction", (0.1, 0.5), starts=2, points=12
+        ),
+        stability_map(
+            vehicle("s1002", normal="hertz"),
+            "speed",
+            "connections.spring.stiffness.x",
+            (0.8e6, 3.2e6),
+            starts=2,
+            points=12,
+            most=60,
         ),
         stability_map(
             vehicle("dtu_car", normal="hertz"),
