@@ -11,7 +11,7 @@ def critical(case):
 def main():
     cases = {
         "conicity": [0.04 + 0.02 * k for k in range(8)],
-        "lateral_damping": [2e4 + 4e3 * k for k in range(8)],
+        "friction": [0.1 + 0.05 * k for k in range(8)],
     }
     found = study(critical, cases, executor=1, file="map.jsonl", progress=False)
     speeds = found.table["value"]
