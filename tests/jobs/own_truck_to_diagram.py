@@ -5,8 +5,8 @@ from exudyn_wheelset import (
     Spring,
     Track,
     VehicleBuilder,
-    VehicleError,
     Wheelset,
+    WheelsetError,
     limit_cycles,
     linear_critical_speed,
 )
@@ -25,7 +25,7 @@ branch = limit_cycles(vehicle, critical, (0.8 * critical.speed, 1.2 * critical.s
 assert 10 < critical.speed < 120 and len(branch) > 3
 try:
     vehicle.replace("wheelsets.leading.mas", 1.0)
-except VehicleError as error:
+except WheelsetError as error:
     assert "mass" in str(error)
 else:
     raise AssertionError("a misspelt path was taken")
