@@ -36,6 +36,8 @@ SYSTEM = FunctionSystem(
         (lambda p: p.limit_cycles(SYSTEM, "hopf", (1, 6)), "'hopf': give 2 numbers"),
         (lambda p: p.limit_cycles(SYSTEM, [1, 0, 0], (1, 6)), "has 3 entries: give 2"),
         (lambda p: p.nonlinear_critical_speed(SYSTEM, low="1"), "low = '1' is no number"),
+        (lambda p: p.static_equilibrium("dtu_car"), r"is no Vehicle.*catalogue.vehicle\(name\)"),
+        (lambda p: p.with_free_lengths(5), "5 is no Vehicle"),
     ],
 )
 def test_the_near_name_is_offered(call, words):

@@ -11,12 +11,12 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.errors import WheelsetWarning
+from exudyn_wheelset.errors import VehicleError, WheelsetWarning
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.rest import accelerations, find_rest
@@ -69,6 +69,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     >>> [round(load / 1e3, 1) for load in rest.wheel_loads["front leading"]]  # [kN]
     [66.6, 66.6]
     """
+    check_described(vehicle)
     rest = find_rest(vehicle)
     parts = vehicle.parts
     left = np.abs(accelerations(vehicle, rest))
@@ -126,6 +127,7 @@ def with_free_lengths(vehicle: Vehicle) -> Vehicle:
     >>> with_free_lengths(catalogue.vehicle("dtu_car")).preload
     'free'
     """
+    check_described(vehicle)
     rest = find_rest(vehicle)
     offsets: dict[str, Array] = {}
     for strut, preload in zip(rest.struts, rest.preloads, strict=True):
@@ -137,6 +139,15 @@ def with_free_lengths(vehicle: Vehicle) -> Vehicle:
         for one in vehicle.connections
     )
     return replace(vehicle, connections=connections, preload="free")
+
+
+def check_described(vehicle: Any) -> None:
+    """Raise VehicleError for what is no description of a vehicle."""
+    if not isinstance(vehicle, Vehicle):
+        raise VehicleError(
+            f"{vehicle!r:.80} is no Vehicle: give one from VehicleBuilder, load_vehicle(path), "
+            "catalogue.vehicle(name), or a truck's own by truck.vehicle()"
+        )
 
 
 def _three(values: Array) -> tuple[float, float, float]:
