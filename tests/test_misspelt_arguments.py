@@ -38,6 +38,10 @@ SYSTEM = FunctionSystem(
         (lambda p: p.nonlinear_critical_speed(SYSTEM, low="1"), "low = '1' is no number"),
         (lambda p: p.static_equilibrium("dtu_car"), r"is no Vehicle.*catalogue.vehicle\(name\)"),
         (lambda p: p.with_free_lengths(5), "5 is no Vehicle"),
+        (lambda p: p.dtu_truck(frition=0.3), "'frition'.*friction"),
+        (lambda p: p.paper_parameters(1, masss=5.0), "'masss'.*did you mean 'mass'"),
+        (lambda p: p.VehicleBuilder("v", p.Track("UIC60")).body("b", mas=5), "mean 'mass'"),
+        (lambda p: p.VehicleBuilder("v", p.Track("UIC60")).connect(naem="a"), "mean 'name'"),
     ],
 )
 def test_the_near_name_is_offered(call, words):

@@ -32,11 +32,13 @@ from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_ce
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
 
 CODES = ("mohan", "idealized", "profiled")
 
 
+@spelt_class
 @dataclass(frozen=True)
 class LateralParameters:
     """Parameters of the lateral model; the defaults are Table 1, set 1, and docs/table2.md.

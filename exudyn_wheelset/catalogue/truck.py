@@ -102,6 +102,7 @@ class Truck:
     name: str = "truck"
 
     def __post_init__(self) -> None:
+        Contact(**self.contact)
         positive = {
             "frame_mass [kg]": self.frame_mass,
             "half_wheelbase [m]": self.half_wheelbase,

@@ -80,6 +80,7 @@ class WheelsetOnFrame:
     name: str = "wheelset on frame"
 
     def __post_init__(self) -> None:
+        Contact(**self.contact)
         weight = self.wheelset.mass * GRAVITY
         if not np.isfinite(self.axle_load) or self.axle_load < weight:
             raise WheelsetError(

@@ -18,6 +18,7 @@ from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles.description import (
     GROUND,
     Axle,
@@ -83,6 +84,7 @@ class VehicleBuilder:
         """Names of the bodies and wheelsets that are there."""
         return tuple(self._parts)
 
+    @spelt
     def body(
         self,
         name: str,
@@ -93,12 +95,14 @@ class VehicleBuilder:
         """Add a rigid body: mass [kg], inertia (Ix, Iy, Iz) [kg m^2], centre (x, y, z) [m]."""
         return self._add(Body(name, mass, inertia, centre))  # type: ignore[arg-type]
 
+    @spelt
     def wheelset(
         self, name: str, wheelset: Wheelset, x: float = 0.0, *, driven: bool = False
     ) -> Part:
         """Add a wheelset at x [m]; its part's z is its nominal radius."""
         return self._add(Axle(name, wheelset, x, driven))
 
+    @spelt
     def connect(
         self,
         element: Any,
