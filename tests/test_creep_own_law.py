@@ -147,7 +147,7 @@ def test_contact_forces_have_the_same_bits():
 def simulated(creep):
     container = exu.SystemContainer()
     mbs = container.AddSystem()
-    items = create_wheelset(mbs, WHEELSET, TRACK, speed=20.0, lateral_offset=2e-3, creep=creep)
+    create_wheelset(mbs, WHEELSET, TRACK, speed=20.0, lateral_offset=2e-3, creep=creep)
     mbs.Assemble()
     settings = exu.SimulationSettings()
     settings.timeIntegration.numberOfSteps = 200
@@ -155,8 +155,10 @@ def simulated(creep):
     settings.timeIntegration.verboseMode = 0
     settings.solution.file.write = False
     mbs.SolveDynamic(settings, solverType=exu.DynamicSolverType.RK44, showHints=False)
-    assert items.contact.current(mbs).left
-    return mbs.systemData.GetODE2Coordinates()
+    coordinates = mbs.systemData.GetODE2Coordinates()
+    # The rails carry it: in free fall it would be 49 mm lower.
+    assert abs(coordinates[2]) < 1e-3
+    return coordinates
 
 
 def test_create_wheelset_has_the_same_motion(registered):

@@ -89,7 +89,8 @@ def load_profile(
             f"{', '.join(BUNDLED)}"
         )
     if unit is not None and unit_word(unit) is None:
-        raise ProfileError(f"unit={unit!r}; use 'mm', 'm', 'cm' or 'inch'")
+        label = name_or_path.name if isinstance(name_or_path, Profile) else str(name_or_path)
+        raise ProfileError(f"{label}: unit={unit!r}; use 'mm', 'm', 'cm', 'um' or 'inch'")
     if side not in _SIDES:
         raise ProfileError(f"side={side!r}; use 'left' or 'right'")
     if format is not None and format not in FORMATS:
