@@ -8,7 +8,8 @@ Each mutant is one change of one place of one module (mutants.py). It is written
 repository and the tests of its group run on it; a mutant that no test notices has survived. Places
 are drawn by a seed. Results are kept after each mutant (--results; by default docs/mutation.json,
 from which the tables of docs/mutation.md are made), so that a run can be broken off and taken up
-again; a mutant is known by its module, line and change.
+again; a mutant is known by its module, line and change. An entry of the results may say under
+"equivalent" why the change cannot alter a result; the tables count it with and without those.
 """
 
 from __future__ import annotations
@@ -216,12 +217,17 @@ def table(results: dict) -> str:
         mine = [e for e in results.values() if module in (e["module"], "all")]
         killed = sum(entry["status"] == "killed" for entry in mine)
         rows.append(f"| {module} | {len(mine)} | {killed} | {100 * killed / len(mine):.0f} % |")
-    rows += ["", "| survivor | change | line |", "|---|---|---|"]
+    able = [entry for entry in results.values() if not entry.get("equivalent")]
+    killed = sum(entry["status"] == "killed" for entry in able)
+    score = 100 * killed / max(len(able), 1)
+    rows.append(f"| without equivalents | {len(able)} | {killed} | {score:.0f} % |")
+    rows += ["", "| survivor | change | line | why nothing can change |", "|---|---|---|---|"]
     for entry in results.values():
         if entry["status"] == "survived":
             change = f"`{entry['before']}` to `{entry['after']}`"
             place = f"{entry['module']}:{entry['line']}"
-            rows.append(f"| {place} | {change} | `{entry['source'].replace('|', '/')}` |")
+            line = entry["source"].replace("|", "/")
+            rows.append(f"| {place} | {change} | `{line}` | {entry.get('equivalent', '')} |")
     return "\n".join(rows)
 
 
@@ -243,7 +249,7 @@ def main() -> None:
         results = {
             key: e
             for key, e in results.items()
-            if e["status"] == "killed" or e["module"] not in chosen
+            if e["status"] == "killed" or e.get("equivalent") or e["module"] not in chosen
         }
     if not arguments.table:
         file.parent.mkdir(parents=True, exist_ok=True)

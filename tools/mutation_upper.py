@@ -42,7 +42,12 @@ _VEHICLE_TESTS = (
 UPPER_GROUPS = {
     "vehicle-kernel": Group(
         _under("systems", "vehicle_kernel vehicle_system compiled_vehicle"),
-        ("test_compiled_vehicle_against_exudyn.py", "test_simulate.py", "test_random_vehicles.py"),
+        (
+            "test_shares_of_a_curve.py",
+            "test_compiled_vehicle_against_exudyn.py",
+            "test_simulate.py",
+            "test_random_vehicles.py",
+        ),
         deselected="result_or_an_error",
     ),
     "exudyn": Group(
@@ -51,6 +56,7 @@ UPPER_GROUPS = {
             "axisymmetry exudyn_layout exudyn_running exudyn_system exudyn_wheelsets system",
         ),
         (
+            "test_starts_and_runaways.py",
             "test_linearisation_gyroscope.py",
             "test_registered_wheelsets.py",
             "test_linearisation_closed_forms.py",
@@ -59,20 +65,31 @@ UPPER_GROUPS = {
         ),
     ),
     "constraints": Group(
-        _under("systems", "constraints"), ("test_joints.py",), deselected="limit_cycles"
+        _under("systems", "constraints"),
+        ("test_joints_in_small_steps.py", "test_joints.py"),
+        deselected="limit_cycles",
     ),
     "curving": Group(
         _under("systems", "curving steady_curve"),
-        ("test_curving_closed_forms.py", "test_rails_at_rest.py"),
+        (
+            "test_shares_of_a_curve.py",
+            "test_curving_closed_forms.py",
+            "test_rails_at_rest.py",
+        ),
         deselected="newtons_method or simulated_curve or halving or coach_in_a_narrow",
     ),
     "simulation": Group(
         _under("systems", "simulation starts trucks checks"),
-        ("test_simulate.py", "test_modes_and_windows.py", "test_vehicle_motion.py"),
+        (
+            "test_starts_and_runaways.py",
+            "test_simulate.py",
+            "test_modes_and_windows.py",
+            "test_vehicle_motion.py",
+        ),
     ),
     "connection-kernel": Group(
         _under("vehicles", "kernel frames friction_kernel links"),
-        _ELEMENT_TESTS,
+        ("test_drawn_links.py", *_ELEMENT_TESTS),
         compiled=False,
         deselected="complex_stiffness or tables_are or loop_of or loading_and_unloading[600000",
     ),
@@ -88,7 +105,7 @@ UPPER_GROUPS = {
     ),
     "statics": Group(
         _under("vehicles", "balance statics rest rail_support struts layout"),
-        (*_VEHICLE_TESTS, "test_vehicle_elements.py"),
+        ("test_bounds_of_vehicle_files.py", *_VEHICLE_TESTS, "test_vehicle_elements.py"),
         deselected="complex_stiffness",
     ),
     "description": Group(
@@ -101,7 +118,7 @@ UPPER_GROUPS = {
             "vehicles/files",
             "converting element_types lines reading track_entries units writing",
         ),
-        ("test_vehicle_files.py",),
+        ("test_bounds_of_vehicle_files.py", "test_vehicle_files.py"),
     ),
     "orbits": Group(
         _under(
@@ -110,6 +127,7 @@ UPPER_GROUPS = {
             "fold_points corners branch symmetry limit_cycles",
         ),
         (
+            "test_steps_of_the_searches.py",
             "test_normal_form_hopf_fold.py",
             "test_limit_cycles_van_der_pol.py",
             "test_settled_branch.py",
@@ -142,6 +160,7 @@ UPPER_GROUPS = {
             "spectra",
         ),
         (
+            "test_steps_of_the_searches.py",
             "test_linearisation_gyroscope.py",
             "test_linearisation_closed_forms.py",
             "test_modes_and_windows.py",

@@ -50,7 +50,8 @@ class VehicleSystem(ExudynSystem):
     _coarseness = 1.0
     # How far [m, rad] a motion chatters about the steady state of a curve, 0 for an equilibrium.
     unsteadiness = 0.0
-    _stable_step: tuple[float, float] = (-1.0, 0.0)
+    # For which speed it is known; for none at first: vehicles run backwards too.
+    _stable_step: tuple[float, float] = (np.nan, 0.0)
 
     def compile(self, vehicle: Vehicle, items: VehicleItems) -> None:
         """Let rates and Jacobians come from the compiled equations where they know all forces."""
