@@ -11,6 +11,7 @@ from numbers import Real
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 
@@ -41,7 +42,7 @@ def number(
     result = float(value)
     if not math.isfinite(result) or not low <= result <= high:
         raise WheelsetError(
-            f"{what} = {value!r}{shown}: give a number {_range(low, high)}{shown}"
+            f"{what} = {value!r}{shown}: give {_range(low, high, unit if shown else '')}"
             + (f"; {mend}" if mend else "")
         )
     return result
@@ -83,6 +84,24 @@ def numbers(
     )
 
 
+def finite_array(what: str, values: Any, unit: str) -> NDArray[np.float64]:
+    """`values`, a number or any shape of numbers in `unit`, as a new array of finite floats.
+
+    Raises WheelsetError; texts are refused even where they spell numbers, True and False as well.
+    """
+    shown = "" if unit in ("", "-") else f" in {unit}"
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind in "USb":
+            raise TypeError("texts, True and False are none")
+        result = np.array(given, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise WheelsetError(f"{what} = {values!r}: give numbers{shown} ({error})") from None
+    if not np.isfinite(result).all():
+        raise WheelsetError(f"{what} = {values!r}: give finite numbers{shown}")
+    return result
+
+
 def moments_of_inertia(what: str, values: Any, mass: float) -> tuple[float, float, float]:
     """Moments of inertia (Ix, Iy, Iz) [kg m^2] that a body of `mass` [kg] can have.
 
@@ -118,12 +137,16 @@ def unknown(kind: str, name: Any, known: Sequence[str]) -> WheelsetError:
     return WheelsetError(f"unknown {kind} {name!r}; known are {listed}{offer}")
 
 
-def _range(low: float, high: float) -> str:
+def _range(low: float, high: float, unit: str) -> str:
     if math.isinf(low) and math.isinf(high):
-        return "that is finite"
+        return "a finite number" + (f" in {unit}" if unit else "")
     if math.isinf(high):
-        return f"of at least {low:g}"
-    return f"from {low:g} to {high:g}" if not math.isinf(low) else f"of at most {high:g}"
+        limits = f"of at least {low:g}"
+    elif math.isinf(low):
+        limits = f"of at most {high:g}"
+    else:
+        limits = f"from {low:g} to {high:g}"
+    return f"a number {limits}" + (f" {unit}" if unit else "")
 
 
 def refuse_options(function: Callable[..., Any], given: Iterable[str]) -> None:
@@ -131,7 +154,7 @@ def refuse_options(function: Callable[..., Any], given: Iterable[str]) -> None:
     known = [
         name
         for name, parameter in inspect.signature(function).parameters.items()
-        if parameter.kind is not inspect.Parameter.VAR_KEYWORD and name != "self"
+        if parameter.kind is not inspect.Parameter.VAR_KEYWORD and name not in ("self", "cls")
     ]
     for name in given:
         raise unknown("option", name, known)

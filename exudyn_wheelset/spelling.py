@@ -63,5 +63,5 @@ def _refuse(
     try:
         signature.bind(*arguments, **named)
     except TypeError as error:
-        takes = ", ".join(key for key in signature.parameters if key != "self")
+        takes = ", ".join(key for key in signature.parameters if key not in ("self", "cls"))
         raise WheelsetError(f"{name}: {error}; it takes {takes}") from None

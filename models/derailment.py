@@ -34,6 +34,7 @@ from exudyn_wheelset.contact.wheelset_contact import contact_forces
 from exudyn_wheelset.front.output import write_figure, write_json
 from exudyn_wheelset.front.plots import new_figure
 from exudyn_wheelset.front.script import run_script, script_parser
+from exudyn_wheelset.front.vehicle_options import add_creep_option, law_changes
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.results.running_safety import nadal_limit
 
@@ -46,12 +47,13 @@ ATTACKS = (2.0, 5.0, 10.0, 20.0, 40.0)  # [mrad]
 SHIFTS = np.linspace(5.0e-3, 8.5e-3, 36)
 
 
-def climb(attack: float, friction: float, creep: str = "exact-table") -> np.ndarray:
+def climb(attack: float, friction: float, creep: str = "exact-table", **law: Any) -> np.ndarray:
     """Y/Q of the left wheel at SHIFTS, NaN where both wheels cannot carry; attack: yaw [rad].
 
+    law: the contact's options beside it, such as law_parameters.
     Unknown are height, roll and spin, from both wheel loads and the free rolling of the axle.
     """
-    contact = Contact(creep=creep, friction=friction)
+    contact = Contact(creep=creep, friction=friction, **law)
     geometry = contact_geometry(WHEELSET, TRACK, SHIFTS)
     found = np.full(len(SHIFTS), np.nan)
     guess: np.ndarray | None = None
@@ -93,13 +95,13 @@ def _quotient(forces: Any) -> float:
     return -lateral / vertical
 
 
-def run(*, creep: str = "exact-table", out: str | Path | None = None) -> dict[str, Any]:
+def run(*, creep: str = "exact-table", out: str | Path | None = None, **law: Any) -> dict[str, Any]:
     """Everything the header names."""
     y = np.linspace(*WHEELSET.wheel.span, 4001)
     slope = np.gradient(WHEELSET.wheel.height(y), y)
     flange = float(np.arctan(slope[(y < -0.02) & (y > -0.05)].max()))
-    curves = {mu: climb(0.04, mu, creep) for mu in FRICTIONS}
-    attacks = {attack: climb(1e-3 * attack, 0.3, creep) for attack in ATTACKS}
+    curves = {mu: climb(0.04, mu, creep, **law) for mu in FRICTIONS}
+    attacks = {attack: climb(1e-3 * attack, 0.3, creep, **law) for attack in ATTACKS}
     numbers: dict[str, Any] = {
         "flange_angle": flange,
         "friction": {
@@ -136,10 +138,10 @@ def _show(numbers: dict[str, Any]) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     parser = script_parser("How much lateral force lifts a flange.", settings=False)
-    parser.add_argument("--creep", default="exact-table", help="creep law")
+    add_creep_option(parser, "exact-table")
 
     def chosen(arguments: argparse.Namespace) -> dict[str, Any]:
-        return run(creep=arguments.creep, out=None if arguments.json else arguments.out)
+        return run(out=None if arguments.json else arguments.out, **law_changes(arguments.creep))
 
     return run_script(chosen, parser, argv, _show)
 

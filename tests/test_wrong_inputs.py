@@ -9,6 +9,7 @@ import json
 import math
 import warnings
 
+import exudyn as exu
 import numpy as np
 import pytest
 
@@ -34,6 +35,41 @@ def wheelset(**changes):
 
 def force(law="polach", creep_x=1e-3, creep_y=0.0, spin=0.0, **changes):
     return ew.creep_force(law, creep_x, creep_y, spin, **{**PATCH, **changes})
+
+
+def report(**options):
+    return ew.profile_report("S1002", **options)
+
+
+def psd(*arguments, **options):
+    return ew.Irregularity.from_psd("ERRI B176 low", *arguments, **options)
+
+
+def created(**options):
+    mbs = exu.SystemContainer().AddSystem()
+    return ew.create_wheelset(mbs, wheelset(), Track("UIC60"), **options)
+
+
+def spiral(state, speed):
+    x, y = state
+    growth = speed - 1 + (x * x + y * y) - (x * x + y * y) ** 2
+    return np.array([growth * x - 6 * y, 6 * x + growth * y])
+
+
+def descent(high=0.9, low=0.6, **options):
+    system = ew.FunctionSystem("spiral", spiral, ["x [m]", "y [m]"], [1e-2, 1e-2])
+    return ew.quasi_static_descent(system, high, low, **options)
+
+
+def basin(speeds=0.9, disturbance=1e-3, **options):
+    system = ew.FunctionSystem("spiral", spiral, ["x [m]", "y [m]"], [1e-2, 1e-2])
+    return ew.basin(system, speeds, disturbance, **options)
+
+
+def film(vehicle="s1002", motion=None, *arguments, **options):
+    if motion is None:
+        motion = ew.Motion(np.zeros(1), {}, None, 20.0)
+    return ew.film(vehicle, motion, *arguments, **options)
 
 
 def profile(**changes):
@@ -74,6 +110,10 @@ PROFILES = {
         lambda: ew.profile_report(load_profile("S1002"), "S1002"),
         ["S1002", "give"],
     ),
+    "report of a number": (lambda: ew.profile_report(3.0), ["3.0", "give"]),
+    "report at a gauge of a word": (lambda: report(gauge="wide"), ["gauge", "wide", "in m"]),
+    "report with half a sample": (lambda: report(samples=0.5), ["samples", "0.5", "whole"]),
+    "report, misspelt": (lambda: report(gage=1.435), ["gage", "gauge"]),
     "save as pdf": (
         lambda: ew.save_profile(load_profile("S1002"), "/dev/null/x", format="pdf"),
         ["pdf", "simpack"],
@@ -111,6 +151,26 @@ DESCRIPTIONS = {
     "friction negative": (lambda: ew.Contact(friction=-0.3), ["-0.3"]),
     "modulus in GPa": (lambda: ew.Contact(shear_modulus=82), ["82", "82e9"]),
     "poisson of 0.7": (lambda: ew.Contact(poisson=0.7), ["0.7", "0.5"]),
+    "mass misspelt": (lambda: wheelset(masss=3), ["masss", "'mass'"]),
+    "a wheelset of its mass": (lambda: Wheelset(1500.0), ["Wheelset", "inertia", "missing"]),
+    "gauge misspelt": (lambda: Track("UIC60", gage=1.435), ["gage", "'gauge'"]),
+    "a track of nothing": (lambda: Track(), ["Track", "rail", "missing"]),
+    "length of roughness a word": (lambda: psd(1, "long"), ["length", "long", "in m"]),
+    "start of roughness a word": (lambda: psd(1, start="0"), ["start", "'0'", "in m"]),
+    "kind of roughness": (lambda: psd(1, kinds=["aligment"]), ["aligment", "'alignment'"]),
+    "seed misspelt": (lambda: psd(sed=1), ["sed", "'seed'"]),
+    "roughness of a number": (lambda: ew.Irregularity.from_psd(5, 1), ["5", "ERRI B176 low"]),
+    "springs of a letter": (lambda: ew.Suspension("a"), ["Suspension", "stiffness", "missing"]),
+    "half distance a letter": (lambda: ew.Suspension("a", (1, 1, 1)), ["half_distance", "in m"]),
+    "two stiffnesses": (lambda: ew.Suspension(1.0, (1e6, 1e6)), ["stiffness", "3 numbers"]),
+    "stiffness negative": (lambda: ew.Suspension(1.0, (1e6, -1.0, 0)), ["-1.0", "N/m"]),
+    "stiffness misspelt": (lambda: ew.Suspension(1.0, stifness=1), ["stifness", "'stiffness'"]),
+    "a frame without a track": (
+        lambda: ew.WheelsetOnFrame(wheelset(), "UIC60", ew.Suspension(1.0, (1, 1, 1)), 1e5),
+        ["track", "UIC60", "Track"],
+    ),
+    "20 mm aside": (lambda: created(lateral_offset=0.02), ["20 mm", "inside", "lateral_offset"]),
+    "20 mm aside in mm": (lambda: created(lateral_offset=20), ["20", "metres"]),
     "unknown law": (lambda: ew.Contact(creep="pollach"), ["pollach", "polach"]),
     "unknown normal": (lambda: ew.Contact(normal="herz"), ["herz", "hertz"]),
     "unknown option": (lambda: ew.Contact(frictoin=0.3), ["frictoin", "friction"]),
@@ -119,6 +179,22 @@ GEOMETRY = {
     "shift in mm": (lambda: ew.contact_geometry(wheelset(), Track("UIC60"), 3.0), ["3"]),
     "shift NaN": (lambda: ew.contact_geometry(wheelset(), Track("UIC60"), math.nan), ["finite"]),
     "shift a word": (lambda: ew.contact_geometry(wheelset(), Track("UIC60"), "left"), ["left"]),
+    "shift a figure in quotes": (
+        lambda: ew.contact_geometry(wheelset(), Track("UIC60"), "0"),
+        ["'0'", "numbers in m"],
+    ),
+    "yaw misspelt": (
+        lambda: ew.contact_geometry(wheelset(), Track("UIC60"), 0.0, yow=0.0),
+        ["yow", "'yaw'"],
+    ),
+    "reach misspelt": (
+        lambda: rolling_radius_curve(wheelset(), Track("UIC60"), reech=5e-3),
+        ["reech", "'reach'"],
+    ),
+    "reach a word": (
+        lambda: rolling_radius_curve(wheelset(), Track("UIC60"), "far"),
+        ["reach", "far", "in m"],
+    ),
     "unknown method": (
         lambda: ew.contact_geometry(wheelset(), Track("UIC60"), 0.0, method="newton"),
         ["newton", "root"],
@@ -195,6 +271,8 @@ CREEP = {
         lambda: force("polach-2005", slip_reduction=3.0),
         ["slip_reduction", "3"],
     ),
+    "arguments missing": (lambda: ew.creep_force("polach", 1e-3), ["creep_y", "missing", "spin"]),
+    "creepage in quotes": (lambda: force(creep_x="1e-3"), ["creep_x", "'1e-3'"]),
     "half a cell": (lambda: force("fastsim", grid=2.5), ["2.5"]),
     "shapes that do not fit": (lambda: force(creep_x=[1e-3, 2e-3], spin=[0.0] * 3), ["shape"]),
     "register a taken name": (lambda: ew.register_creep_law("polach", force), ["polach", "name"]),
@@ -222,6 +300,9 @@ STUDIES = {
     "processes of a lambda": (lambda: study(lambda case: 1, [{"x": 1}] * 2, 2), ["executor=1"]),
     "minus two processes": (lambda: study(len, [{"x": 1}], -2), ["-2"]),
     "executor a word": (lambda: study(len, [{"x": 1}], "many"), ["many"]),
+    "cases missing": (lambda: study(len), ["cases", "missing"]),
+    "executor misspelt": (lambda: study(len, [{"x": 1}], exectuor=1), ["exectuor", "'executor'"]),
+    "settings a word": (lambda: study(len, [{"x": 1}], 1, settings="a"), ["'a'", "mapping"]),
     "a case with an object": (lambda: study(len, [{"x": object()}], 1), ["x", "numbers, texts"]),
 }
 
@@ -245,6 +326,30 @@ SETTINGS = {
         ["endTime", "load_settings"],
     ),
 }
+ANALYSES = {
+    "eigenvalues at rest": (lambda: ew.linearise("s1002", 0.0), ["0.0 m/s", "other than 0"]),
+    "root locus from rest": (lambda: ew.root_locus("s1002", [0, 20]), ["0.0 m/s", "other than 0"]),
+    "descent by a word": (lambda: descent(step="small"), ["step", "small", "in m/s"]),
+    "descent upwards": (lambda: descent(0.6, 0.9), ["0.6", "0.9", "above"]),
+    "descent from a negative disturbance": (
+        lambda: descent(disturbance=-1),
+        ["disturbance", "-1", "positive"],
+    ),
+    "descent from three states": (lambda: descent(state=[0.1] * 3), ["(3,)", "2 states"]),
+    "descent, misspelt": (lambda: descent(stepp=0.1), ["stepp", "'step'"]),
+    "descent without end": (lambda: ew.quasi_static_descent("s1002", 60.0), ["low", "missing"]),
+    "basin without disturbance": (lambda: ew.basin("s1002", 60.0), ["disturbance", "missing"]),
+    "basin at a word": (lambda: basin("60"), ["speeds", "'60'", "m/s"]),
+    "basin of a word": (lambda: basin(disturbance="much"), ["disturbance", "much", "in m"]),
+    "basin of half a sample": (lambda: basin(samples=1.5), ["samples", "1.5", "whole"]),
+    "basin upside down": (lambda: basin(disturbance={"x": (1.0, 0.0)}), ["(1.0, 0.0)", "below"]),
+    "film of a number": (lambda: film(motion=3.0), ["motion", "3.0", "simulate"]),
+    "film to a number": (lambda: film("s1002", None, 7), ["path", "7", ".mp4"]),
+    "film of one size": (lambda: film(size=640), ["size", "640", "2 numbers"]),
+    "film seen by a number": (lambda: film(view=2), ["view", "2", "wheel"]),
+    "film at a word": (lambda: film(rate="fast"), ["rate", "fast"]),
+    "film, misspelt": (lambda: film(seconds=1, veiw="wheel"), ["veiw", "'view'"]),
+}
 TABLE = {
     f"{area}: {name}": row
     for area, rows in {
@@ -255,6 +360,7 @@ TABLE = {
         "creep": CREEP,
         "studies": STUDIES,
         "settings": SETTINGS,
+        "analyses": ANALYSES,
     }.items()
     for name, row in rows.items()
 }

@@ -8,16 +8,18 @@ beyond the wheelset's own weight, with no force of the springs beside it where t
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import exudyn as exu
-import numpy as np
 
+from exudyn_wheelset.checking import number, numbers, positive
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import CONTACT_NUMBERS, Contact, Track, Wheelset
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles.assemble import add_vehicle
@@ -26,6 +28,7 @@ from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.elements import Spring
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Suspension:
     """Springs and dampers between one end of an axle and the frame.
@@ -45,14 +48,13 @@ class Suspension:
     damping: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.half_distance < 3.0:
-            raise WheelsetError(f"half_distance = {self.half_distance!r} m: give 0 to 3 m")
-        for what in ("stiffness", "damping"):
-            values = np.asarray(getattr(self, what), dtype=float)
-            if values.shape != (3,) or not np.all(np.isfinite(values)) or np.any(values < 0.0):
-                raise WheelsetError(f"{what} = {values.tolist()}: give three numbers >= 0 (SI)")
+        positive("half_distance", self.half_distance, "m", 3.0)
+        for what, unit in (("stiffness", "N/m"), ("damping", "N s/m")):
+            values = numbers(f"{what} (x, y, z)", getattr(self, what), 3, unit, 0.0)
+            object.__setattr__(self, what, values)
 
 
+@spelt_class
 @dataclass(frozen=True)
 class WheelsetOnFrame:
     """A wheelset with its suspension, load and contact, ready to be built at any speed.
@@ -80,9 +82,17 @@ class WheelsetOnFrame:
     name: str = "wheelset on frame"
 
     def __post_init__(self) -> None:
+        for what, kind in (("wheelset", Wheelset), ("track", Track), ("suspension", Suspension)):
+            if not isinstance(getattr(self, what), kind):
+                raise WheelsetError(f"{what} = {getattr(self, what)!r}: give a {kind.__name__}")
+        if not isinstance(self.contact, Mapping):
+            raise WheelsetError(
+                f"contact = {self.contact!r}: give a mapping of the names of Contact to values, "
+                "such as {'friction': 0.3}"
+            )
         Contact(**self.contact)
         weight = self.wheelset.mass * GRAVITY
-        if not np.isfinite(self.axle_load) or self.axle_load < weight:
+        if number("axle_load", self.axle_load, "N") < weight:
             raise WheelsetError(
                 f"axle_load = {self.axle_load!r} N is less than the wheelset's own weight "
                 f"{weight:.0f} N: give the load of both wheels on the rails, weight included"

@@ -22,6 +22,7 @@ from exudyn_wheelset.contact.rail_section import ProfileSource, RailSection, pro
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
 
@@ -33,6 +34,7 @@ NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips
 _FALLING = "polach-2005"
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Wheelset:
     """A rigid axle with two profiled wheels.
@@ -249,6 +251,7 @@ class RailPlacement:
     datum_y: float
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Track:
     """Two profiled rails at a gauge.

@@ -27,6 +27,7 @@ from exudyn_wheelset.coupling.create_checks import (
     check_motion,
     check_place,
     check_rails,
+    warn_of_depth,
 )
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import guidance
@@ -128,6 +129,7 @@ def create_wheelset(
     )
     if height is None:
         height = _rest_height(wheelset, track) - 1.0e-4
+    warn_of_depth(wheelset, track, position[1] + lateral_offset, height, yaw)
     inertia = RigidBodyInertia(mass=wheelset.mass, inertiaTensor=np.diag(wheelset.inertia))
     cosine, sine = np.cos(yaw), np.sin(yaw)
     spin = speed / wheelset.radius

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,9 +12,11 @@ import numpy as np
 from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.contact.changing_rails import rails_change
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
+from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance
-from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.geometry.gap import least_gap
 from exudyn_wheelset.track.irregularity import Irregularity
 
 # Rail vehicles run up to 160 m/s.
@@ -21,6 +24,9 @@ FASTEST = 200.0
 # Flanges touch their rails some 0.1 m before and behind the middle of the contact: with a play of
 # 7 mm on either side a wheelset cannot yaw by more than 0.07 rad between its rails.
 LARGEST_YAW = 0.1
+# Vertical depth [m] of a wheel in its rail: 1 mm across a flank of 70 degrees, which presses with
+# some thirty times a wheel load of 80 kN; on a tread more than any wheel has.
+DEEPEST = 3.0e-3
 
 
 def check_kinds(mbs: Any, wheelset: Any, track: Any, contact: Any) -> None:
@@ -59,6 +65,23 @@ def check_place(
     )  # fmt: skip
     if height is not None:
         number("height", height, "m", -0.1, 0.1, "it counts from `radius` above the rails' tops")
+
+
+def warn_of_depth(wheelset: Wheelset, track: Track, y: float, height: float, yaw: float) -> None:
+    """Warn of a level wheelset at y, `height` above its radius [m], that begins inside a rail."""
+    table = contact_tables(wheelset, track)
+    across, along = np.sin(yaw), np.cos(yaw)
+    for hand, (side, sign) in enumerate((("left", 1.0), ("right", -1.0))):
+        gap = least_gap(table, hand, sign * y, -sign * across, along, 0.0)[0]
+        depth = -gap - wheelset.radius - height
+        if np.isfinite(depth) and depth > DEEPEST:
+            warnings.warn(
+                f"{1e3 * y:g} mm aside the {side} wheel begins {1e3 * depth:.1f} mm inside its "
+                f"rail (more than {1e3 * DEEPEST:g} mm), which throws the wheelset off: give a "
+                "smaller lateral_offset, or a height at which it is free of the rails",
+                WheelsetWarning,
+                stacklevel=3,
+            )
 
 
 def check_motion(speed: Any, gravity: Any, switches: Mapping[str, Any]) -> None:

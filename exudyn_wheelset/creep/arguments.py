@@ -45,7 +45,10 @@ def check_names(description: CreepLaw, parameters: dict[str, Any]) -> None:
 def finite(name: str, value: ArrayLike) -> NDArray:
     """Give a number or an array as an array of floats; WheelsetError unless all are finite."""
     try:
-        array = np.asarray(value, dtype=float)
+        array = np.asarray(value)
+        if array.dtype.kind in "USb":
+            raise TypeError
+        array = np.asarray(array, dtype=float)
     except (TypeError, ValueError):
         raise WheelsetError(f"{name} must be a number or an array, not {value!r}") from None
     if not np.all(np.isfinite(array)):

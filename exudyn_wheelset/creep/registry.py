@@ -36,6 +36,7 @@ from exudyn_wheelset.creep.polach_kalker import LAW as POLACH_KALKER
 from exudyn_wheelset.creep.shen_hedrick_elkins import LAW as SHEN_HEDRICK_ELKINS
 from exudyn_wheelset.creep.vermeulen_johnson import LAW as VERMEULEN_JOHNSON
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 
 CREEP_LAWS: dict[str, CreepLaw] = {
     law.name: law
@@ -178,6 +179,7 @@ def _address(description: CreepLaw) -> list[float]:
     return [] if description.function is None else [float(address_of(description.function))]
 
 
+@spelt
 def creep_force(
     law: Any,
     creep_x: ArrayLike,

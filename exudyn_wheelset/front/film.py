@@ -21,11 +21,13 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset.checking import number, positive, unknown
+from exudyn_wheelset.checking import number, numbers, positive, unknown
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.front.animation import Camera, render, show_rails, write_film
 from exudyn_wheelset.results.files import write_atomically
 from exudyn_wheelset.results.motion import Motion
+from exudyn_wheelset.spelling import spelt
+from exudyn_wheelset.stability.subject import named
 from exudyn_wheelset.vehicles.description import Vehicle
 
 VIEWS = ("vehicle", "truck", "wheel")
@@ -35,6 +37,7 @@ _BEYOND = 5.0
 _CUT = 0.25
 
 
+@spelt
 def film(
     vehicle: Any,
     motion: Motion,
@@ -52,7 +55,8 @@ def film(
 ) -> Path:
     """Film a motion of a vehicle and return the path that was written.
 
-    vehicle  a Vehicle, or another model with `track` and `create`; motion: from `simulate`
+    vehicle  a Vehicle, another model with `track` and `create`, or a name of the catalogue
+    motion   from `simulate`
     path     .mp4 or .gif; without ffmpeg a GIF takes the place of an MP4, with a warning
     start, seconds  the part of the motion that is shown [s]; all if left out
     rate     pictures a second; slow: how many times slower than it was
@@ -71,6 +75,14 @@ def film(
     >>> film(wheelset, motion, "run.gif", size=(64, 48), rate=10).name
     'run.gif'
     """
+    vehicle = named(vehicle)
+    if not isinstance(motion, Motion):
+        raise WheelsetError(f"motion = {motion!r:.80}: give a Motion, what simulate(...) returns")
+    if not isinstance(path, str | Path):
+        raise WheelsetError(f"path = {path!r}: give the path of an .mp4 or .gif")
+    if not isinstance(view, str | Camera):
+        raise WheelsetError(f"view = {view!r}: give one of {', '.join(VIEWS)}, or a Camera")
+    smooth = int(number("smooth", smooth, "-", 1, 16))
     rate, slow = positive("rate", rate, "1/s", 240.0), positive("slow", slow, "-", 1e4)
     size = _even(size)
     if Path(path).suffix.lower() not in ("", ".mp4", ".gif"):
@@ -150,7 +162,8 @@ def captioned(picture: np.ndarray, words: str, shift: float = 0.0) -> np.ndarray
 
 def _even(size: tuple[int, int]) -> tuple[int, int]:
     """A size with even numbers, which films want."""
-    width, height = (int(number("size", value, "pixels", 32, 8192)) for value in size)
+    pair = numbers("size (width, height)", size, 2, "pixels", 32, 8192)
+    width, height = (int(value) for value in pair)
     return width + width % 2, height + height % 2
 
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from exudyn_wheelset.checking import number, positive
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.front.plots import new_figure
@@ -23,6 +24,7 @@ from exudyn_wheelset.geometry.conicity import equivalent_conicity
 from exudyn_wheelset.geometry.rolling_radius import rolling_radius_curve
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.profiles.noise import noise_by_spacing
+from exudyn_wheelset.spelling import spelt
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,8 +47,9 @@ class ProfileReport(NamedTuple):
     text: str
 
 
+@spelt
 def profile_report(
-    profile: Profile,
+    profile: Profile | str,
     partner: Profile | str | None = None,
     *,
     gauge: float = 1.435,
@@ -56,6 +59,7 @@ def profile_report(
 ) -> ProfileReport:
     """Draw points, curve, residuals and curvature of a profile and say what it means for conicity.
 
+    profile, partner: each a Profile, a name or a path.
     partner: the other profile of the pair; UIC60 for a wheel, S1002 for a rail by default. gauge,
     gauge_depth [m] and inclination [-]: of the track; 0 for rails measured in the track.
     samples: of other errors for the spread of conicity, 0 for none.
@@ -72,6 +76,12 @@ def profile_report(
     >>> round(report.numbers["conicity_3mm"], 2)
     0.18
     """
+    positive("gauge", gauge, "m", 3.0)
+    positive("gauge_depth", gauge_depth, "m", 0.05)
+    number("inclination", inclination, "-", -0.2, 0.2, "a slope such as 1/40")
+    if isinstance(samples, bool) or not isinstance(samples, int | np.integer) or samples < 0:
+        raise WheelsetError(f"samples = {samples!r}: give a whole number, 0 for no spread")
+    profile = load_profile(profile)
     if partner is None:
         partner = "UIC60" if profile.kind == "wheel" else "S1002"
     other = load_profile(partner)

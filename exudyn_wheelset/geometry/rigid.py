@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import minimize
 
+from exudyn_wheelset.checking import finite_array
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
@@ -30,6 +31,7 @@ from exudyn_wheelset.errors import ContactError, WheelsetError
 from exudyn_wheelset.geometry.gap import gap_difference, least_gap
 from exudyn_wheelset.geometry.roughness import warn_if_rough
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 
 METHODS = ("root", "nelder-mead")
 _ROLL_RANGE = 0.12
@@ -238,6 +240,7 @@ def _geometry(table, y, yaw, order, roll, known, heights, left, right, second):
     return -1
 
 
+@spelt
 def contact_geometry(
     wheelset: Wheelset,
     track: Track,
@@ -285,14 +288,14 @@ def searched_geometry(
         )
     try:
         shifts, yaws = np.broadcast_arrays(
-            np.atleast_1d(np.asarray(y, dtype=float)), np.asarray(yaw, dtype=float)
+            np.atleast_1d(finite_array("y", y, "m")), finite_array("yaw", yaw, "rad")
         )
-    except (TypeError, ValueError) as error:
+    except WheelsetError:
+        raise
+    except ValueError as error:
         raise WheelsetError(
             f"y = {y!r}, yaw = {yaw!r}: give numbers [m, rad] of one shape ({error})"
         ) from None
-    if not (np.all(np.isfinite(shifts)) and np.all(np.isfinite(yaws))):
-        raise WheelsetError("y and yaw must be finite numbers [m, rad]")
     if np.any(np.abs(yaws) > 0.3):
         raise WheelsetError(f"yaw up to {np.abs(yaws).max():g} rad: give radians within +-0.3")
     shifts = np.array(shifts)

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.checking import finite_array, number
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
@@ -33,6 +34,7 @@ from exudyn_wheelset.geometry.rigid import (
     contact_geometry,
     least_gap,
 )
+from exudyn_wheelset.spelling import spelt
 
 FloatArray = NDArray[np.float64]
 
@@ -48,6 +50,7 @@ class ShiftCurve(NamedTuple):
     geometry: ContactGeometry
 
 
+@spelt
 def rolling_radius_curve(
     wheelset: Wheelset,
     track: Track,
@@ -72,7 +75,7 @@ def rolling_radius_curve(
     """
     if shift not in SHIFTS:
         raise WheelsetError(f"shift {shift!r} is unknown: use one of {', '.join(SHIFTS)}")
-    if not 0.0 < spacing <= reach:
+    if not 0.0 < number("spacing", spacing, "m") <= number("reach", reach, "m"):
         raise WheelsetError(f"spacing = {spacing!r} m: give a positive length below reach, in m")
     low, high = contact_range(wheelset, track, reach)
     y = spacing * np.arange(np.ceil(low / spacing), np.floor(high / spacing) + 1)
@@ -104,9 +107,7 @@ def level_contact_geometry(wheelset: Wheelset, track: Track, y: ArrayLike) -> Co
     sides do not agree: the assumption behind EN 15302's reference values. z is the mean of both.
     Raises ContactError where a wheel has left its rail.
     """
-    shifts = np.array(np.atleast_1d(y), dtype=float)
-    if not np.all(np.isfinite(shifts)):
-        raise WheelsetError("y must be finite numbers [m]")
+    shifts = np.atleast_1d(finite_array("y", y, "m"))
     sides = np.full((2, len(shifts), 9), np.nan)
     table = contact_tables(wheelset, track)
     _level_side(table, 0, shifts, sides[0])
@@ -132,7 +133,7 @@ def contact_range(
     Raises ContactError where there is no contact even near y = 0.
     """
     for what, value in (("reach", reach), ("step", step)):
-        if not 0.0 < value <= 0.1:
+        if not 0.0 < number(what, value, "m") <= 0.1:
             raise WheelsetError(f"{what} = {value!r} m: give a positive shift in m, up to 0.1")
 
     def touches(shift: float) -> bool:

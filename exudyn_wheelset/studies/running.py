@@ -25,6 +25,7 @@ from tqdm import tqdm
 
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.results.versions import versions
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.studies.cases import Case, listed, plain_value
 from exudyn_wheelset.studies.journal import Journal, Row
 from exudyn_wheelset.studies.tables import Study
@@ -35,6 +36,7 @@ _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NU
 VALUE = "value"
 
 
+@spelt
 def study(
     function: Callable[[Case], Any],
     cases: Any,
@@ -86,6 +88,10 @@ def study(
             f"executor = {executor!r}: give a number of processes from 1, None for one a core, or "
             "a concurrent.futures.Executor"
         )
+    if not isinstance(settings, Mapping | None):
+        raise WheelsetError(f"settings = {settings!r}: give a mapping of names to values")
+    if not isinstance(file, str | Path | None):
+        raise WheelsetError(f"file = {file!r}: give a path, or leave it out")
     rows = listed(cases)
     given = {name: plain_value(name, value) for name, value in (settings or {}).items()}
     record: dict[str, Any] = {

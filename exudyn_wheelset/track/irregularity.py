@@ -24,8 +24,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import number, numbers, positive
+from exudyn_wheelset.checking import number, numbers, positive, unknown
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.track.spectra import KINDS, Spectrum, spectra
 
 # Rails farther off [m] are broken, or given in millimetres.
@@ -80,6 +81,7 @@ class Irregularity:
         self.shifts.setflags(write=False)
 
     @classmethod
+    @spelt
     def from_points(
         cls,
         distance: Any,
@@ -106,6 +108,7 @@ class Irregularity:
         return cls(distance, _of_rails(*columns), name)
 
     @classmethod
+    @spelt
     def from_functions(
         cls,
         left: Callable[[Array], Any],
@@ -120,7 +123,7 @@ class Irregularity:
         Sampled every `spacing` [m] over `length` [m] from `start`; cubic splines lie between.
         """
         count = _count(length, spacing)
-        distance = start + spacing * np.arange(count + 1)
+        distance = number("start", start, "m") + spacing * np.arange(count + 1)
         rails = []
         for what, function in (("left", left), ("right", right)):
             if not callable(function):
@@ -132,6 +135,7 @@ class Irregularity:
         return cls(distance, np.column_stack(rails), name)
 
     @classmethod
+    @spelt
     def from_psd(
         cls,
         name: str | Mapping[str, Spectrum],
@@ -150,10 +154,17 @@ class Irregularity:
         Spectrum by kind; wavelengths [m]: limits of the band; fade_in [m]: over which it grows from
         nothing behind `start` [m]; kinds: those that are there; scale: of all shifts [-].
         """
+        if not isinstance(name, str | Mapping):
+            raise WheelsetError(
+                f"name = {name!r}: give the name of a spectrum, such as 'ERRI B176 low', or a "
+                f"mapping of {', '.join(KINDS)} to Spectrum"
+            )
         chosen = spectra(name) if isinstance(name, str) else dict(name)
         label = name if isinstance(name, str) else "own spectra"
         shortest, longest = numbers("wavelengths (shortest, longest)", wavelengths, 2, "m", 0.0)
+        length = positive("length", length, "m", 1e7)
         positive("spacing", spacing, "m", 10.0)
+        start, scale = number("start", start, "m"), number("scale", scale, "-")
         if not 0.0 < shortest < longest:
             raise WheelsetError(
                 f"wavelengths = ({shortest:g}, {longest:g}) m: give a shortest below a longest"
@@ -170,7 +181,10 @@ class Irregularity:
         step = 2.0 * math.pi / (count * spacing)
         frequency = step * np.arange(count // 2 + 1)
         inside = (frequency >= 2 * math.pi / longest) & (frequency <= 2 * math.pi / shortest)
-        wanted = list(kinds)
+        wanted = [kinds] if isinstance(kinds, str) else list(kinds)
+        for kind in wanted:
+            if kind not in KINDS:
+                raise unknown("kind", kind, KINDS)
         signals = []
         for k, kind in enumerate(KINDS):
             if kind not in chosen or kind not in wanted:

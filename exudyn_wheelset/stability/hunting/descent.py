@@ -26,9 +26,11 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.checking import finite_array, number, positive
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import NamedColumns
 from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
@@ -45,6 +47,7 @@ FALL, RIPPLE = 1.0 / 3.0, 0.1
 COARSER, STEP_SHARE = 2.0, 0.1
 
 
+@spelt
 def quasi_static_descent(
     vehicle: Any,
     high: float,
@@ -88,11 +91,22 @@ def quasi_static_descent(
     True
     """
     system = as_system(vehicle)
-    if not (low < high and step > 0.0 and tolerance > 0.0):
+    high, low = number("high", high, "m/s"), number("low", low, "m/s")
+    step, tolerance = positive("step", step, "m/s"), positive("tolerance", tolerance, "m/s")
+    if not low < high:
         raise AnalysisError(
-            f"high = {high:g} must lie above low = {low:g} m/s, step = {step:g} and tolerance = "
-            f"{tolerance:g} m/s must be positive"
+            f"high = {high:g} m/s, low = {low:g} m/s: the speed falls, give a high above the low"
         )
+    disturbance = positive("disturbance", disturbance, "times the scale of the mode")
+    if state is not None:
+        state = finite_array("state", state, "SI units")
+        if state.shape != (len(system.state_names),):
+            raise AnalysisError(
+                f"state of the shape {state.shape}: give the {len(system.state_names)} states of "
+                f"{system.name}"
+            )
+    if not isinstance(settling, Settling | None):
+        raise AnalysisError(f"settling = {settling!r}: give a Settling(...) or leave it out")
     settling = settling or Settling()
     watched = watched_trucks(system, watch)
     run = _Run(system, watched, settling, high, low, step, tolerance)

@@ -136,6 +136,7 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     True
     """
     system = as_system(vehicle)
+    check_rolls(system, speed)
     linear = linearised(system, number("speed", speed, "m/s"), guess)
     row = linear.hunting_row
     if row is None:
@@ -143,6 +144,15 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     law = check_law(system, linear.state, linear.speed, linear.eigenvectors[:, row])
     warn_of_law(system.name, [(linear.speed, law)], level=4)
     return replace(linear, law=law)
+
+
+def check_rolls(system: DynamicSystem, speed: float) -> None:
+    """Raise AnalysisError for a vehicle on wheels at rest, whose creepages are not defined."""
+    if number("speed", speed, "m/s") == 0.0 and getattr(system, "wheelsets", ()):
+        raise AnalysisError(
+            f"speed = {speed!r} m/s: {system.name} stands on its wheels and has no creepage, slip "
+            "by speed: give a speed other than 0 m/s, such as 1"
+        )
 
 
 def linearised(system: DynamicSystem, speed: float, guess: Array | None = None) -> Linearisation:
@@ -206,6 +216,8 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     speeds = np.array([number("one of speeds", one, "m/s") for one in given])
     if not len(speeds):
         raise AnalysisError("speeds = []: give one speed [m/s] or more")
+    for speed in speeds:
+        check_rolls(spectra.system, float(speed))
     rows: list[Array] = []
     for index, speed in enumerate(speeds):
         values = spectra.eigenvalues(speed)

@@ -19,11 +19,13 @@ import numpy as np
 from scipy.stats import beta, norm
 from tqdm import tqdm
 
+from exudyn_wheelset.checking import finite_array, number, numbers, positive
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.stability.subject import as_system
@@ -72,6 +74,7 @@ class Basin:
         return ax
 
 
+@spelt
 def basin(
     vehicle: Any,
     speeds: float | Sequence[float] | Array,
@@ -104,11 +107,13 @@ def basin(
     array([0.])
     """
     system = as_system(vehicle)
-    values = np.atleast_1d(np.asarray(speeds, dtype=float))
-    if samples < 1 or not 0.0 < confidence < 1.0:
+    values = np.atleast_1d(finite_array("speeds", speeds, "m/s"))
+    for what, value, low in (("samples", samples, 1), ("seed", seed, 0)):
+        if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < low:
+            raise AnalysisError(f"{what} = {value!r}: give a whole number of at least {low}")
+    if not 0.0 < number("confidence", confidence, "-") < 1.0:
         raise AnalysisError(
-            f"samples = {samples}, confidence = {confidence}: give at least one sample and a "
-            "confidence between 0 and 1"
+            f"confidence = {confidence!r}: give a number between 0 and 1, such as 0.95"
         )
     offsets = _drawn(system, disturbance, samples, np.random.default_rng(seed))
     settling = settling or DEFAULT
@@ -164,17 +169,23 @@ def _drawn(
             )
         return offsets
     if not isinstance(disturbance, Mapping):
-        disturbance = {system.state_names[watched_index(system)]: float(disturbance)}
+        spread = positive("disturbance", disturbance, "m")
+        disturbance = {system.state_names[watched_index(system)]: spread}
     offsets = np.zeros((samples, size))
     for name, spread in disturbance.items():
         column = column_index(system.state_names, name)
         if hasattr(spread, "rvs"):
             offsets[:, column] = spread.rvs(size=samples, random_state=random)
         elif isinstance(spread, tuple | list):
-            low, high = map(float, spread)
+            low, high = numbers(f"disturbance of {name}", spread, 2, "-")
+            if not low < high:
+                raise AnalysisError(
+                    f"disturbance of {name} = {spread!r}: give (low, high), low below high"
+                )
             offsets[:, column] = random.uniform(low, high, size=samples)
         else:
-            offsets[:, column] = random.normal(0.0, float(spread), size=samples)
+            deviation = number(f"disturbance of {name}", spread, "-", 0.0)
+            offsets[:, column] = random.normal(0.0, deviation, size=samples)
     return offsets
 
 
