@@ -97,7 +97,7 @@ _PLACES = {
     "root_locus": "stability.linear.linearisation",
     "save_profile": "profiles",
     "save_vehicle": "vehicles.files",
-    "simulate": "systems.simulation",
+    "simulate": "stability.simulation",
     "stability_map": "stability.maps.stability_map",
     "all_branches": "stability.hunting.all_branches",
     "switch_branch": "stability.hunting.branch_switching",

@@ -60,10 +60,10 @@ from exudyn_wheelset.stability.linear.linearisation import linearise as linearis
 from exudyn_wheelset.stability.linear.linearisation import root_locus as root_locus
 from exudyn_wheelset.stability.maps.basins import basin as basin
 from exudyn_wheelset.stability.maps.stability_map import stability_map as stability_map
+from exudyn_wheelset.stability.simulation import simulate as simulate
 from exudyn_wheelset.studies import Study as Study
 from exudyn_wheelset.studies import study as study
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem as ExudynSystem
-from exudyn_wheelset.systems.simulation import simulate as simulate
 from exudyn_wheelset.systems.steady_curve import SteadyCurve as SteadyCurve
 from exudyn_wheelset.systems.steady_curve import steady_curve as steady_curve
 from exudyn_wheelset.systems.system import DynamicSystem as DynamicSystem

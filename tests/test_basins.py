@@ -93,5 +93,5 @@ def test_ways_to_give_a_disturbance():
         basin(system, -0.1, lambda random: np.zeros(3), samples=2)
     with pytest.raises(AnalysisError, match="is not one of"):
         basin(system, -0.1, {"roll": 1.0}, samples=2)
-    with pytest.raises(AnalysisError, match="at least one sample"):
+    with pytest.raises(AnalysisError, match="whole number of at least 1"):
         basin(system, -0.1, 1.0, samples=0)

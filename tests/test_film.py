@@ -131,7 +131,7 @@ def test_what_cannot_be_filmed_is_refused(car, motion, tmp_path):
     with pytest.raises(WheelsetError, match="did you mean 'truck'"):
         film(car, motion, path, view="trick")
     with pytest.raises(WheelsetError, match="has no track"):
-        film("car", motion, path)
+        film(3.0, motion, path)
     with pytest.raises(WheelsetError, match=r"\.mp4 or \.gif"):
         film(car, motion, tmp_path / "no.avi", seconds=0.01, size=SMALL)
     with pytest.raises(WheelsetError, match="behind the motion's end"):

@@ -1,5 +1,7 @@
 """`simulate`: one runner for vehicles, models and systems, against what is known of each motion."""
 
+import inspect
+import pickle
 import signal
 
 import exudyn as exu
@@ -15,6 +17,7 @@ from exudyn_wheelset import (
     Track,
     Wheelset,
     WheelsetError,
+    catalogue,
     create_wheelset,
     dtu_truck,
     simulate,
@@ -276,3 +279,12 @@ def test_impossible_values_are_refused(truck, change, words):
     arguments = {"speed": 40.0, "duration": 0.1, **change}
     with pytest.raises(WheelsetError, match=words):
         simulate(truck, arguments.pop("speed"), arguments.pop("duration"), **arguments)
+
+
+def test_a_name_of_the_catalogue_runs_as_its_vehicle():
+    """The same equations from the same start give the same numbers to the bit."""
+    by_name = simulate("s1002", speed=20.0, duration=0.05, initial=1e-3)
+    same = simulate(vehicle=catalogue.vehicle("s1002"), speed=20.0, duration=0.05, initial=1e-3)
+    assert np.array_equal(by_name.coordinates, same.coordinates)
+    assert pickle.loads(pickle.dumps(simulate)) is simulate
+    assert list(inspect.signature(simulate).parameters)[:3] == ["vehicle", "speed", "duration"]

@@ -343,6 +343,12 @@ ANALYSES = {
     "basin of a word": (lambda: basin(disturbance="much"), ["disturbance", "much", "in m"]),
     "basin of half a sample": (lambda: basin(samples=1.5), ["samples", "1.5", "whole"]),
     "basin upside down": (lambda: basin(disturbance={"x": (1.0, 0.0)}), ["(1.0, 0.0)", "below"]),
+    "motion of an unknown name": (
+        lambda: ew.simulate("dtu_cra", 20.0, 0.1),
+        ["dtu_cra", "dtu_car"],
+    ),
+    "motion without duration": (lambda: ew.simulate("s1002", 20.0), ["duration", "missing"]),
+    "motion without vehicle": (lambda: ew.simulate(speed=20.0), ["vehicle", "missing"]),
     "film of a number": (lambda: film(motion=3.0), ["motion", "3.0", "simulate"]),
     "film to a number": (lambda: film("s1002", None, 7), ["path", "7", ".mp4"]),
     "film of one size": (lambda: film(size=640), ["size", "640", "2 numbers"]),
@@ -438,6 +444,20 @@ def test_a_wrong_line_of_the_command(line, capsys):
     said = capsys.readouterr()
     assert status == 2, said
     assert all(word in said.err.splitlines()[-1] for word in COMMAND[line]), said.err
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: wheelset(inertia=(1e6, 1e5, 1e6)),
+        lambda: force(b=5.0),
+        lambda: created(lateral_offset=0.02),
+    ],
+)
+def test_a_warning_points_at_the_line_of_the_user(call):
+    with pytest.warns(WheelsetWarning) as caught:
+        call()
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 def test_there_are_a_hundred():

@@ -117,12 +117,12 @@ def check_patch(values: dict[str, NDArray]) -> None:
                 f"{name} = {values[name].max():g} m is no patch of wheel and rail (usual: 1e-3 to "
                 f"2e-2 m, warned of from {USUAL_PATCH:g} m): is it given in m?",
                 WheelsetWarning,
-                stacklevel=3,
+                stacklevel=4,
             )
     if np.any(values["shear_modulus"] < USUAL_SHEAR_MODULUS):
         warnings.warn(
             f"shear_modulus = {values['shear_modulus'].min():g} Pa is that of no solid (steel: "
             f"82e9 Pa, warned of below {USUAL_SHEAR_MODULUS:g} Pa): is it given in Pa?",
             WheelsetWarning,
-            stacklevel=3,
+            stacklevel=4,
         )

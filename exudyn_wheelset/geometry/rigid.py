@@ -267,7 +267,7 @@ def contact_geometry(
     """
     found = searched_geometry(wheelset, track, y, yaw, method, weights)
     places = np.column_stack((found.left.wheel_y, found.right.wheel_y))
-    warn_if_rough(wheelset, track, found.y, places)
+    warn_if_rough(wheelset, track, found.y, places, level=4)
     return found
 
 

@@ -31,11 +31,16 @@ def rough_profiles(wheelset: Wheelset, track: Track) -> list[Profile]:
 
 
 def warn_if_rough(
-    wheelset: Wheelset, track: Track, y: NDArray[np.float64], places: NDArray[np.float64]
+    wheelset: Wheelset,
+    track: Track,
+    y: NDArray[np.float64],
+    places: NDArray[np.float64],
+    level: int = 3,
 ) -> None:
     """WheelsetWarning with the jumps of the contact and their cause, where a profile is noise.
 
-    y: shape (n,) [m]; places: shape (n, k), lateral positions of contact points [m].
+    y: shape (n,) [m]; places: shape (n, k), lateral positions of contact points [m]; level: how
+    far above this call the user's line is.
     """
     rough = rough_profiles(wheelset, track)
     if not rough or len(y) < 3:
@@ -52,5 +57,5 @@ def warn_if_rough(
         f"{1e3 * np.max(y):.3g} mm, from crest to crest of measurement noise ({causes}): radii, "
         "angles and conicity are not to be trusted; load the profile with smoothing='auto'",
         WheelsetWarning,
-        stacklevel=3,
+        stacklevel=level,
     )

@@ -70,7 +70,8 @@ def simulate(
 ) -> Motion:
     """Motion of a vehicle at `speed` [m/s] over `duration` [s], sampled every `interval` [s].
 
-    vehicle  a Vehicle, an ExudynSystem or another DynamicSystem, or Exudyn's `mbs`
+    vehicle  a Vehicle, an ExudynSystem or another DynamicSystem, Exudyn's `mbs`, or, by the
+             `simulate` of the package, a name of the catalogue
     start    station [m] at time zero of the vehicle's own origin, on a track with a layout or an
              irregularity; on plain straight track, where all stations are alike, it may be what
              `initial` is
