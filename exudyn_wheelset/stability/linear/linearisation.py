@@ -148,7 +148,7 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
 
 def check_rolls(system: DynamicSystem, speed: float) -> None:
     """Raise AnalysisError for a vehicle on wheels at rest, whose creepages are not defined."""
-    if number("speed", speed, "m/s") == 0.0 and getattr(system, "wheelsets", ()):
+    if number("speed", speed, "m/s") == 0.0 and getattr(system, "wheelsets", False):
         raise AnalysisError(
             f"speed = {speed!r} m/s: {system.name} stands on its wheels and has no creepage, slip "
             "by speed: give a speed other than 0 m/s, such as 1"
