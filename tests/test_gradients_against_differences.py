@@ -13,12 +13,14 @@ import pytest
 
 from exudyn_wheelset import AnalysisError, design, nonlinear_critical_speed
 from exudyn_wheelset.catalogue import vehicle
+from exudyn_wheelset.stability.gradients import differentiate
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import fold_near, prepared
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import hopf_points
+from exudyn_wheelset.stability.numbers import number_of, vehicle_numbers
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
 from exudyn_wheelset.systems.system import FunctionSystem
 
@@ -50,6 +52,22 @@ class NormalForm:
             (1.0, 1.0),
             displacement_indices=(0,),
             derivatives_function=rates,
+        )
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """A spring that is not there yet [N/m]."""
+
+    stiffness: float = 0.0
+
+    def replace(self, path, value):
+        return replace(self, **{path: value})
+
+    def dynamic_system(self):
+        parameters = {"stiffness": self.stiffness}
+        return FunctionSystem(
+            "spring", lambda state, speed: -state, ("x [m]",), (1.0,), parameters=parameters
         )
 
 
@@ -192,6 +210,47 @@ def test_hopf_point_of_a_truck():
         ]
         assert gradient[name] == pytest.approx((speeds[0] - speeds[1]) / (2.0 * step), rel=0.01)
     assert gradient["wheelsets.*.inertia.xz"] < 0.0
+
+
+def test_numbers_are_those_that_replace_writes():
+    """By the same paths: with parts of names, and with and without the word for the holder."""
+    truck = description_of("truck")
+    for path in (
+        "wheelsets.*.mass",
+        "wheelsets.leading wheelset.wheelset.mass",
+        "connections.left primary.stiffness.y",
+        "connections.left primary.element.stiffness.y",
+        "bodies.frame.inertia.z",
+    ):
+        found = number_of(truck, path).value
+        assert number_of(truck.replace(path, 1.5 * found), path).value == 1.5 * found, path
+
+
+def test_only_what_spins_has_one_inertia_about_x_and_z():
+    truck = description_of("truck")
+    numbers = vehicle_numbers(truck)
+    about = {name: number.value for name, number in numbers.items() if ".inertia." in name}
+    axle, frame = truck.wheelsets[0].wheelset.inertia, truck.bodies[0].inertia
+    assert axle[0] == axle[2] and frame[0] == frame[2]
+    assert about == {
+        **{f"bodies.frame.inertia.{axis}": value for axis, value in zip("xyz", frame, strict=True)},
+        "wheelsets.*.inertia.xz": axle[0],
+        "wheelsets.*.inertia.y": axle[1],
+    }
+
+
+def test_a_number_that_is_zero_is_never_made_negative():
+    """Its derivative is that of the side that exists: +1 of |k| at 0."""
+    form = Stiffness()
+    number = number_of(form, "stiffness")
+    tried = []
+
+    def result(system):
+        tried.append(system.parameters["stiffness"])
+        return np.array([abs(tried[-1])])
+
+    assert differentiate(form, number, result) == pytest.approx(1.0)
+    assert number.value == 0.0 and min(tried) == 0.0 and max(tried) == number.step
 
 
 def test_systems_without_a_description_say_so():

@@ -4,15 +4,18 @@ The systems are the normal form of `test_normal_form_hopf_fold.py` with an edge 
 """
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from exudyn_wheelset.errors import AnalysisError, ContactError
 from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.stability.hunting import nonlinear
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.diagram import drawn_speeds
 from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import NoLimitCycleError, nonlinear_critical_speed
@@ -276,3 +279,26 @@ def test_lost_contact_counts_as_a_critical_disturbance():
     assert runs.critical[0] == pytest.approx(np.sqrt(0.5 - np.sqrt(0.05)), rel=0.02)
     with pytest.raises(AnalysisError, match="is not one of"):
         critical_disturbance(system, -0.2, 0.79, direction="roll")
+
+
+@pytest.mark.parametrize(
+    ("method", "ends"), [("continuation", (0.4, 1.3)), ("descent", (0.4, 1.1))]
+)
+def test_ranges_and_steps_that_the_documentation_names(monkeypatch, method, ends):
+    """In Hopf speeds, by continuation and by descent; a descent goes by one per cent."""
+    asked = {}
+
+    def stop(system, *speeds, step=None, **_):
+        asked.update(speeds=speeds, step=step)
+        raise InterruptedError
+
+    monkeypatch.setattr(nonlinear, "quasi_static_descent", stop)
+    monkeypatch.setattr(
+        nonlinear, "_by_continuation", lambda system, hopf, speeds, *_: stop(system, *speeds)
+    )
+    hopf = SimpleNamespace(speed=50.0)
+    with pytest.raises(InterruptedError):
+        nonlinear_critical_speed(normal_form(), method, hopf=hopf)
+    assert sorted(asked["speeds"]) == pytest.approx([50.0 * end for end in ends])
+    assert asked["step"] == (0.5 if method == "descent" else None)
+    assert drawn_speeds(hopf) == pytest.approx((25.0, 65.0))

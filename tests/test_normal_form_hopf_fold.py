@@ -8,13 +8,18 @@ cycles lie on mu = r^4 - r^2: born at mu = 0, fold at mu = -1/4 with r^2 = 1/2. 
 multiplier is exp(T (2 r^2 - 4 r^4)) whatever c is. A third state z' = -s z adds exp(-s T).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from exudyn_wheelset.stability.hunting.aligned import Point
 from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.measured_growth import measured_growth
+from exudyn_wheelset.stability.hunting.nonlinear import _simulated_fold, nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.system import FunctionSystem
 
@@ -137,6 +142,48 @@ def test_continuation_and_descent_agree():
     assert np.all(branch.settled[chosen])
     square = 0.5 + np.sqrt(0.25 + branch.speeds[chosen])
     np.testing.assert_allclose(branch.amplitude["x"][chosen] ** 2, square, rtol=4e-3)
+
+
+@pytest.mark.parametrize("square", [0.0005, 0.0015])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_measured_growth_is_the_multiplier(square, sign):
+    """exp(2 pi (2 sign r^2 - 4 r^4)) beside a Hopf point, where motion checks the multipliers.
+
+    Sizes 2 % off the orbit change the growth by their square.
+    """
+    phases = 2.0 * np.pi * np.arange(121) / 120
+    states = np.sqrt(square) * np.stack([np.cos(phases), np.sin(phases), 0.0 * phases], axis=1)
+    speed = square**2 - sign * square
+    orbit = Orbit(np.linspace(0.0, 1.0, 41), states, 2.0 * np.pi, speed)
+    growth = measured_growth(normal_form(sign=sign), Point(orbit, None, 1.0))
+    expected = 2.0 * np.pi * (2.0 * sign * square - 4.0 * square**2)
+    assert np.log(growth) == pytest.approx(expected, rel=1e-2)
+
+
+def test_motion_decides_beside_a_fold_on_either_side_of_it():
+    """Where the orbit above the fold alone has an uncertain stability, whichever way it is met."""
+    system = normal_form()
+    found = limit_cycles(system, hopf_points(system, -0.45, 0.5)[0], (-0.5, 0.4))
+    for order in (1, -1):
+        branch = Orbits(found.orbits[::order])
+        (fold,) = found.folds
+        index = fold.index if order == 1 else len(found) - 1 - fold.index
+        branch.folds = (replace(fold, index=index),)
+        branch.uncertain[index + order] = True
+        assert _simulated_fold(system, branch, 0.0) == fold == pytest.approx(-0.25, abs=1e-6)
+        assert _simulated_fold(system, branch, -0.3) is None
+        branch.uncertain[:] = False
+        assert _simulated_fold(system, branch, 0.0) is None
+
+
+class Orbits:
+    """What `_simulated_fold` asks of a branch."""
+
+    def __init__(self, orbits):
+        self.orbits, self.uncertain, self.folds = orbits, np.zeros(len(orbits), dtype=bool), ()
+
+    def __len__(self):
+        return len(self.orbits)
 
 
 def test_critical_disturbance_is_the_unstable_branch():

@@ -13,9 +13,20 @@ import pytest
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
+from exudyn_wheelset.stability.hunting.disturbance import GROWTH, _grows, _shrinks
 from exudyn_wheelset.stability.hunting.floquet import Multipliers
 from exudyn_wheelset.stability.hunting.limit_cycles import _stability_changes
-from exudyn_wheelset.stability.hunting.settling import FAR_DOWN, TREND, _falls_away, _judge
+from exudyn_wheelset.stability.hunting.settling import (
+    FAR_DOWN,
+    SHAKEN,
+    SHOWN,
+    TREND,
+    Settling,
+    WatchedMotion,
+    _falls_away,
+    _falls_steadily,
+    _judge,
+)
 from exudyn_wheelset.systems.system import FunctionSystem
 
 BLOCKS = np.arange(40)
@@ -64,6 +75,69 @@ def test_amplitudes_are_judged_by_where_they_go():
     assert _judge(list(decay[:20]), rest=0.05, tolerance=0.01) is Ending.DIED_OUT
     growth = list(decay[:20][::-1])
     assert _judge(growth, rest=1e-9, tolerance=0.01) is Ending.UNDECIDED
+
+
+def test_a_motion_that_begins_below_rest_dies_out_at_a_fifth_of_its_beginning():
+    assert _judge([0.010, 0.011], rest=0.02, tolerance=0.01) is Ending.UNDECIDED
+    assert _judge([0.010, 0.0021], rest=0.02, tolerance=0.01) is Ending.UNDECIDED
+    assert _judge([0.010, 0.0019], rest=0.02, tolerance=0.01) is Ending.DIED_OUT
+
+
+def test_a_steady_fall_is_one_over_the_whole_second_half():
+    """x = exp(-k t): nine blocks fall by 4 k in the second half, towards zero."""
+    for fall, falls in ((1.02 * SHOWN, True), (0.98 * SHOWN, False)):
+        means = list(np.exp(-0.25 * fall * np.arange(9)))
+        assert _falls_steadily(means) is falls
+    # A fall to 0.9 of the amplitude does not go towards less than half.
+    assert not _falls_steadily(list(approaching_a_stable_cycle(end=0.9)[:17]))
+
+
+def test_growth_leaves_out_the_first_block_and_fall_looks_at_both_quarters():
+    faster = list(0.1 * np.exp((GROWTH + 0.01) / 3.0 * np.arange(5)))
+    assert _grows(faster) and not _grows(faster[1:]) and not _grows(faster[::-1])
+    falling = [1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3]
+    assert _shrinks(falling) and not _shrinks(falling[::-1])
+    # Down in the third quarter and up in the last one, and the other way round.
+    assert not _shrinks([1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.6, 0.65])
+    assert not _shrinks([1.0, 0.9, 0.8, 0.4, 0.6, 0.7, 0.6, 0.5])
+
+
+def watched(period, rate=2.0 * np.pi, sizes=(0.0, 0.0)):
+    """A motion of two oscillators of 1 s with the amplitudes `sizes`, one to a truck."""
+
+    def derivative(state, speed):
+        return rate * np.array([-state[1], state[0], -state[3], state[2]])
+
+    names = ["y [m]", "a [m]", "z [m]", "b [m]"]
+    system = FunctionSystem("oscillators", derivative, names, np.ones(4))
+    start = [sizes[0], 0.0, sizes[1], 0.0]
+    return WatchedMotion(system, 1.0, start, period, {"front": 0, "rear": 2}, Settling())
+
+
+def test_the_period_follows_the_motion_by_no_more_than_twofold_at_a_time():
+    motion = watched(0.3, sizes=(1.0, 0.5))
+    motion.advance()
+    assert motion.period == pytest.approx(0.6)
+    for _ in range(3):
+        motion.advance()
+    # Passages by lines between samples.
+    assert motion.period == pytest.approx(1.0, rel=1e-3)
+    motion = watched(7.0, sizes=(1.0, 0.5))
+    motion.advance()
+    assert motion.period == pytest.approx(3.5)
+
+
+def test_a_truck_is_shaken_below_rest_and_a_tenth_of_another():
+    """Rest is 0.02 of the scale. Two alike below it move by themselves."""
+    for sizes, hunting in (
+        ((0.015, 0.015), {"front": True, "rear": True}),
+        ((0.3, 1.1 * SHAKEN * 0.3), {"front": True, "rear": True}),
+        ((0.15, 0.9 * SHAKEN * 0.15), {"front": True, "rear": False}),
+        ((0.3, 0.019), {"front": True, "rear": False}),
+    ):
+        motion = watched(1.0, sizes=sizes)
+        motion.advance()
+        assert motion.hunting == hunting, sizes
 
 
 @pytest.mark.parametrize(

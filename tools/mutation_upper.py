@@ -141,17 +141,18 @@ UPPER_GROUPS = {
             "settling descent disturbance watching measured_growth settled_branch settled_orbit",
         ),
         (
-            "test_measured_growth.py",
-            "test_settled_branch.py",
-            "test_normal_form_hopf_fold.py",
             "test_what_amplitudes_and_multipliers_say.py",
+            "test_normal_form_hopf_fold.py",
+            "test_settled_branch.py",
+            "test_descent_by_truck.py",
         ),
-        deselected="supercritical_branch",
+        deselected="supercritical_branch or order_of or every_cycle or begins_at or simulated_state",
     ),
     "nonlinear": Group(
         _under("stability/hunting", "nonlinear large_starts truck_speeds diagram"),
         ("test_normal_form_hopf_fold.py", "test_limit_cycles_endings.py"),
-        deselected="disturbance_runs or convergence_at_the or speed_range or critical_disturbance",
+        deselected="disturbance_runs or convergence_at_the or speed_range or critical_disturbance "
+        "or order_of",
     ),
     "linear": Group(
         _under(
@@ -173,6 +174,6 @@ UPPER_GROUPS = {
     "gradients": Group(
         ("stability/gradients.py", "stability/design.py", "stability/numbers.py"),
         ("test_gradients_against_differences.py",),
-        deselected="whole_diagrams",
+        deselected="slow or whole_diagrams",
     ),
 }
