@@ -146,7 +146,8 @@ UPPER_GROUPS = {
             "test_settled_branch.py",
             "test_descent_by_truck.py",
         ),
-        deselected="supercritical_branch or order_of or every_cycle or begins_at or simulated_state",
+        deselected="supercritical_branch or order_of or every_cycle or begins_at "
+        "or simulated_state",
     ),
     "nonlinear": Group(
         _under("stability/hunting", "nonlinear large_starts truck_speeds diagram"),
