@@ -460,6 +460,25 @@ def test_a_warning_points_at_the_line_of_the_user(call):
     assert {warning.filename for warning in caught} == {__file__}
 
 
+@pytest.mark.parametrize(
+    ("name", "missing"),
+    [
+        ("all_branches", "vehicle"),
+        ("contact_view", "wheelset"),
+        ("create_wheelset", "mbs"),
+        ("design", "vehicle"),
+        ("equivalent_conicity", "y"),
+        ("piecewise_geometry", "wheelset"),
+        ("stability_map", "vehicle"),
+        ("steady_curve", "vehicle"),
+        ("switch_branch", "vehicle"),
+    ],
+)
+def test_a_missing_argument_is_named(name, missing):
+    with pytest.raises(WheelsetError, match=f"{name}: missing .*'{missing}'; it takes {missing}"):
+        getattr(ew, name)()
+
+
 def test_there_are_a_hundred():
     assert len(TABLE) + len(COMMAND) >= 100
     assert json.dumps(sorted(COMMAND))

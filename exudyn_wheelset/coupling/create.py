@@ -42,11 +42,13 @@ from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES, wheel_values
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.coupling.wheelset_shapes import wheelset_graphics
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.track.irregularity import Irregularity
 
 SENSOR_VALUES = tuple(name for name, _ in WHEEL_VALUES)
 
 
+@spelt
 def create_wheelset(
     mbs: Any,
     wheelset: Wheelset,

@@ -80,7 +80,7 @@ def warn_of_depth(wheelset: Wheelset, track: Track, y: float, height: float, yaw
                 f"rail (more than {1e3 * DEEPEST:g} mm), which throws the wheelset off: give a "
                 "smaller lateral_offset, or a height at which it is free of the rails",
                 WheelsetWarning,
-                stacklevel=3,
+                stacklevel=4,
             )
 
 

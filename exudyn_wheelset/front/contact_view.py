@@ -22,6 +22,7 @@ from exudyn_wheelset.errors import ContactError
 from exudyn_wheelset.front.geometry_plots import draw_wheels_on_rails
 from exudyn_wheelset.front.plots import pair_name, tidy
 from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+from exudyn_wheelset.spelling import spelt
 
 
 @dataclass
@@ -71,6 +72,7 @@ class ContactView:
         plt.show()
 
 
+@spelt
 def contact_view(
     wheelset: Wheelset,
     track: Track,

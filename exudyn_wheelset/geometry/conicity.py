@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 
 FloatArray = NDArray[np.float64]
 
@@ -60,6 +61,7 @@ class KinematicOscillation:
     conicity: float
 
 
+@spelt
 def equivalent_conicity(
     y: ArrayLike,
     rolling_radius_difference: ArrayLike,

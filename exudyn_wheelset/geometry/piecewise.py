@@ -35,6 +35,7 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.geometry.rigid import ContactGeometry, searched_geometry
 from exudyn_wheelset.geometry.roughness import rough_profiles, warn_if_rough
+from exudyn_wheelset.spelling import spelt
 
 FloatArray = NDArray[np.float64]
 Search = Callable[[FloatArray], FloatArray]
@@ -105,6 +106,7 @@ def geometry_columns(geometry: ContactGeometry) -> FloatArray:
     return np.column_stack(columns)
 
 
+@spelt
 def piecewise_geometry(
     wheelset: Wheelset,
     track: Track,
@@ -156,7 +158,7 @@ def piecewise_geometry(
     moved = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) > JUMP)
     try:
         if rough_profiles(wheelset, track):
-            warn_if_rough(wheelset, track, y, places)
+            warn_if_rough(wheelset, track, y, places, level=4)
             raise _TooRough
         jumps = _locate_jumps(search, y[moved], y[moved + 1])
         jumps = np.unique(jumps[np.isfinite(jumps)])
@@ -184,7 +186,7 @@ def _warn_of_jumps(wheelset: Wheelset, track: Track, tolerance: float) -> None:
         "where points with noise curve the profiles; straight lines between the searched points "
         "are returned, with their residuals: smooth what was measured, smoothing='auto'",
         WheelsetWarning,
-        stacklevel=3,
+        stacklevel=4,
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.numbers import number_of
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
@@ -52,6 +53,7 @@ class Design:
         return "\n".join(lines)
 
 
+@spelt
 def design(
     vehicle: Any,
     wanted: Mapping[str, float],

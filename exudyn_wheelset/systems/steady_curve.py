@@ -28,6 +28,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.systems.curving import driven_in
 from exudyn_wheelset.systems.fitting import check_curves, radial_steering_index
 from exudyn_wheelset.systems.simulation import motion_of
@@ -135,6 +136,7 @@ class SteadyCurve:
         return float(self.motion[name][0])
 
 
+@spelt
 def steady_curve(
     vehicle: Vehicle | VehicleSystem,
     radius: float,
@@ -193,7 +195,7 @@ def steady_curve(
             f"forces and chatters by {1e3 * system.unsteadiness:.2g} mm or mrad: what is given is "
             "the mean of a second; the jump belongs to patches that merge",
             WheelsetWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
         times = np.linspace(0.0, 1.0, 501)
         samples, _ = system.carry_on(state, speed, times)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.branch_switching import switch_branch
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
@@ -35,6 +36,7 @@ SAME = 0.02
 SMALLEST = 0.1
 
 
+@spelt
 def all_branches(
     vehicle: Any,
     speeds: tuple[float, float],

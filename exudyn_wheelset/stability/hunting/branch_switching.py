@@ -21,6 +21,7 @@ import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
@@ -51,6 +52,7 @@ class Crossing:
     vector: Array
 
 
+@spelt
 def switch_branch(
     vehicle: Any,
     branch: Branch,

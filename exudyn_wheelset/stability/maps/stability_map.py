@@ -22,6 +22,7 @@ from tqdm import tqdm
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.records import describe
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.maps.curves import Curve, Regions, regions_of
 from exudyn_wheelset.stability.maps.fold_curves import BAUTIN
@@ -126,6 +127,7 @@ class StabilityMap:
         return ax
 
 
+@spelt
 def stability_map(
     vehicle: Any,
     first: str,
