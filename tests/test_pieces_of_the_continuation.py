@@ -126,6 +126,21 @@ def test_the_lowest_stable_speed_is_a_fold_or_a_change_of_stability_that_counts(
     assert branch(speeds, stable, [], [above]).lowest_stable()[0] == 47.0
 
 
+def test_a_fold_whose_neighbours_are_uncertain_goes_by_the_orbits_further_on():
+    """Near a fold a multiplier is near 1, and its error may hide on which side of 1 it lies."""
+    speeds = [50.0, 48.0, 46.0, 46.1, 47.0, 49.0]
+    fold = Fold(45.9, {}, 0.2, 2, "lowest")
+    for beyond, lowest in ((True, 45.9), (False, 49.0)):
+        found = branch(speeds, [False, False, False, False, beyond, True], [fold])
+        found.uncertain[3] = True
+        assert found.lowest_stable()[0] == lowest
+    # Beyond another fold things are otherwise.
+    another = Fold(46.1, {}, 0.2, 3, "highest")
+    found = branch(speeds, [False, False, False, False, True, True], [fold, another])
+    found.uncertain[3] = True
+    assert found.lowest_stable()[0] == 47.0
+
+
 def test_a_supercritical_branch_begins_at_its_hopf_point():
     found = branch([40.0, 41.0], [True, True], hopf=(39.99, 1.0)).lowest_stable()
     assert found == (39.99, "the Hopf point, which is supercritical")

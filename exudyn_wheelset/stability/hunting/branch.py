@@ -200,6 +200,21 @@ class Branch:
             found.append(_lagrange(along[near], column[near], where))
         return np.array(found)
 
+    def _stable_beside(self, index: int) -> bool:
+        """Whether the orbits on either side of a fold are stable, or the next that are certain.
+
+        Near a fold a multiplier is near 1: what its error hides there, orbits further on tell, up
+        to the next fold.
+        """
+        ends = {fold.index for fold in self.folds}
+        found = bool(self.stable[index])
+        for way in (-1, 1):
+            k = index + way
+            while 0 <= k < len(self) and self.uncertain[k] and k not in ends:
+                k += way
+            found |= 0 <= k < len(self) and bool(self.stable[k])
+        return found
+
     def lowest_stable(self, large: Array | None = None) -> tuple[float, str]:
         """Lowest speed [m/s] at which a cycle of the branch is stable, and what bounds it there.
 
@@ -221,9 +236,8 @@ class Branch:
             else:
                 what = "the first orbit of the branch, below the Hopf point it starts from"
         for fold in self.folds:
-            beside = self.stable[max(0, fold.index - 1) : fold.index + 2]
             counted = fold.side == "lowest" and counts[fold.index]
-            if counted and np.any(beside) and fold <= speed:
+            if counted and self._stable_beside(fold.index) and fold <= speed:
                 speed, what = float(fold), "the fold of the limit cycle"
         for change in self.changes:
             if change < speed and counts[change.index]:
