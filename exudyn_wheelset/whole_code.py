@@ -125,7 +125,8 @@ class Part(CPUDispatcher):
     def add_overload(self, cres: Any) -> None:
         # numba finds a function by what Python would call; of a part any other object will do.
         result = cres._replace(entry_point=object())
-        self.targetctx.insert_user_function(result.entry_point, cres.fndesc, [cres.library])
+        code = cres._asdict()["library"]
+        self.targetctx.insert_user_function(result.entry_point, cres.fndesc, [code])
         self.overloads[tuple(cres.signature.args)] = result
 
 

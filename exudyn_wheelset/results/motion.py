@@ -294,7 +294,7 @@ class Motion:
 
     def to_pandas(self) -> Any:
         """A pandas DataFrame over "t [s]"; raises AnalysisError where pandas is not installed."""
-        pandas = netcdf.library("pandas")
+        pandas = netcdf.imported("pandas")
         return pandas.DataFrame(
             dict(self.columns), index=pandas.Index(self.time, name="t [s]"), copy=True
         )

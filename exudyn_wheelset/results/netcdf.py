@@ -30,8 +30,8 @@ _OF_WHEELS = (("Q", "N"), ("Y", "N"), ("patches", "-"), ("wear_number", "N"))
 _OF_WHEELSETS = (("y", "m"), ("yaw", "rad"))
 
 
-def library(name: str) -> Any:
-    """A library by name; raises AnalysisError where it is not installed."""
+def imported(name: str) -> Any:
+    """An optional package by name; raises AnalysisError where it is not installed."""
     try:
         return import_module(name)
     except ImportError as error:
@@ -42,7 +42,7 @@ def library(name: str) -> Any:
 
 def to_dataset(motion: Motion) -> Any:
     """The motion as an xarray Dataset."""
-    xarray = library("xarray")
+    xarray = imported("xarray")
     variables: dict[str, Any] = {}
     for name, values in motion.columns.items():
         short, unit = _parted(name)
@@ -70,8 +70,8 @@ def to_dataset(motion: Motion) -> Any:
 def _libraries() -> Any:
     """xarray, with what it writes and reads NetCDF by."""
     for name in ("h5py", _ENGINE):
-        library(name)
-    return library("xarray")
+        imported(name)
+    return imported("xarray")
 
 
 def _parted(name: str) -> tuple[str, str]:
