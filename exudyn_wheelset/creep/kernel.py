@@ -6,8 +6,6 @@ on disk; a law of one's own is called by its address (exudyn_wheelset.creep.own)
 
 from __future__ import annotations
 
-from numpy.typing import NDArray
-
 from exudyn_wheelset.addresses import numbers_at
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.creep.exact import LAW as EXACT
@@ -40,32 +38,8 @@ _EXACT_TABLE = EXACT_TABLE.number
 
 
 @compiled
-def law_force(
-    law_number: int,
-    creep_x: float,
-    creep_y: float,
-    spin: float,
-    a: float,
-    b: float,
-    normal_force: float,
-    friction: float,
-    shear_modulus: float,
-    poisson: float,
-    parameters: NDArray,
-) -> tuple[float, float, float]:
-    """As `creep_kernel` of kernel_apart.py."""
-    state = (
-        creep_x,
-        creep_y,
-        spin,
-        a,
-        b,
-        normal_force,
-        friction,
-        shear_modulus,
-        poisson,
-        parameters,
-    )
+def law_force(law_number, state):
+    """(F_x, F_y, M_z) by the law of a number; state: what `creep_kernel` takes after it."""
     if law_number == _POLACH:
         return polach(*state)
     if law_number == _LINEAR:
@@ -93,7 +67,7 @@ def force_at(
 ):  # fmt: skip
     """Write (F_x, F_y, M_z) to an address; parameters: address of `count` numbers."""
     given = numbers_at(forces, 3)
-    given[0], given[1], given[2] = law_force(
-        law_number, creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson,
+    given[0], given[1], given[2] = law_force(law_number, (
+        creep_x, creep_y, spin, a, b, normal_force, friction, shear_modulus, poisson,
         numbers_at(parameters, count),
-    )  # fmt: skip
+    ))  # fmt: skip
