@@ -1,21 +1,8 @@
 """Bifurcation diagram of a vehicle: hunting amplitude over speed, stable and unstable.
 
-Run `python models/bifurcation.py --vehicle s1002`; names are those of the catalogue. From the Hopf
-point, where the straight run loses stability, the branch of limit cycles is followed through its
-folds (continuation). With `--json` it prints only its numbers:
-
-    hopf                      speeds at which an oscillation loses or regains stability [m/s]
-    folds                     speeds at which the branch turns [m/s], in its order
-    nonlinear_critical_speed  lowest speed with a stable limit cycle [m/s]; None if there is none
-    method                    what made the numbers
-    points, seconds, reason   orbits on the branch, time of the continuation, why the branch ends
-
-`--descent` adds hunting simulated at falling speed down to its jump, `--disturbance` the smallest
-one-off lateral blow (a velocity) that leads to it; both come onto the same figure. It shows
-the unstable branch dashed: a motion that stays below it dies out, one beyond it hunts.
-
-Figure and data land under `--out`, named after the vehicle and what was changed of it. The data
-files (.npz) hold settings, parameters, versions and method; `--redraw FILE ...` draws them again.
+Run `python models/bifurcation.py --vehicle s1002`; names are those of the catalogue.
+It is the command `exudyn-wheelset hunt` as a script: what it prints with `--json`, what `--descent`
+and `--disturbance` add and what lands under `--out` stand in exudyn_wheelset/front/command/hunt.py.
 """
 
 from __future__ import annotations
