@@ -153,7 +153,7 @@ def half_as_stiff(monkeypatch):
 def test_slopes_are_compared_with_the_exact_law(half_as_stiff, name):
     system = vehicle_system(name, creep="linear")
     state = system.equilibrium(30.0)
-    check = check_law(system, state, 30.0, np.ones(system.size))
+    check = check_law(system, state, 30.0, np.ones(system.size), system.jacobian(state, 30.0))
     assert check.law == "linear"
     assert check.slope_ratio == pytest.approx(2.0, rel=1e-6)
     assert (check.direction, check.slope) == ("x", pytest.approx(2.0 * check.exact_slope))

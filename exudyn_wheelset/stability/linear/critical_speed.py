@@ -38,6 +38,8 @@ from exudyn_wheelset.systems.system import Array
 # A window of instability between two speeds of the scan is looked for where the peak of the least
 # damping through three speeds comes this near to zero, as a share of the damping beside it.
 NEAR_ZERO = 0.5
+# Roots of trucks that are polished one after the other before the scan has to look for the first.
+MOST_TRUCKS = 4
 
 
 @spelt
@@ -190,18 +192,23 @@ def _critical_speed_near(
             eigenvalue = guess.eigenvalue
         else:
             eigenvalue = complex(spectra.lateral_pairs(float(guess))[0])
-        polished = polish(spectra, float(guess), eigenvalue, tolerance)
+        speed = float(guess)
+        # Trucks of a car lose stability close together: the first is sought from the other's speed.
+        for _ in range(MOST_TRUCKS):
+            polished = polish(spectra, speed, eigenvalue, tolerance)
+            if polished is None or not low <= polished[0] <= high:
+                return None
+            speed, eigenvalue = polished
+            others = spectra.lateral_pairs(speed)
+            others = others[np.abs(others - eigenvalue) > 1e-6 * abs(eigenvalue)]
+            growing = others[others.real > NEUTRAL_FRACTION * np.abs(others)]
+            if not len(growing):
+                point = hopf_point(spectra, speed, eigenvalue)
+                return point if point.slope > 0.0 else None
+            eigenvalue = complex(growing[np.argmax(growing.real)])
     except (AnalysisError, IndexError):
         return None
-    if polished is None or not low <= polished[0] <= high:
-        return None
-    speed, eigenvalue = polished
-    others = spectra.lateral_pairs(speed)
-    others = others[np.abs(others - eigenvalue) > 1e-6 * abs(eigenvalue)]
-    if np.any(others.real > NEUTRAL_FRACTION * np.abs(others)):
-        return None
-    point = hopf_point(spectra, speed, eigenvalue)
-    return point if point.slope > 0.0 else None
+    return None
 
 
 def _no_critical_speed(spectra: Spectra, speeds: Array) -> str:

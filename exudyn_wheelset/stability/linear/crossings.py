@@ -218,7 +218,7 @@ def _divergence(
     slope = (excess(speed + step) - excess(speed)) / step if step else 0.0
     if slope == 0.0:
         return None
-    mode, state = _mode(spectra, speed, eigenvalue)
+    mode, state, _ = _mode(spectra, speed, eigenvalue)
     return CriticalPoint(
         # The root found is that of real part = neutral rate: back to zero along its slope.
         speed=speed - NEUTRAL_RATE / slope,
@@ -256,10 +256,10 @@ def polish(
 
 
 def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalPoint:
-    mode, state = _mode(spectra, speed, eigenvalue)
+    mode, state, jacobian = _mode(spectra, speed, eigenvalue)
     step = 1e-4 * max(abs(speed), 1.0)
     shifted = spectra.nearest(speed + step, eigenvalue)
-    law = check_law(spectra.system, state, speed, mode)
+    law = check_law(spectra.system, state, speed, mode, jacobian)
     return CriticalPoint(
         speed=speed,
         frequency=abs(eigenvalue.imag) / (2.0 * np.pi),
@@ -277,8 +277,8 @@ def hopf_point(spectra: Spectra, speed: float, eigenvalue: complex) -> CriticalP
     )
 
 
-def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, Array]:
-    """Eigenvector of the root nearest to an eigenvalue, and the equilibrium."""
+def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, Array, Array]:
+    """Eigenvector of the root nearest to an eigenvalue, the equilibrium and its Jacobian."""
     system = spectra.system
     state = spectra.state(speed)
     full = linearised(system, speed, state)
@@ -287,4 +287,4 @@ def _mode(spectra: Spectra, speed: float, eigenvalue: complex) -> tuple[Array, A
     largest = shown[int(np.argmax(np.abs(mode[shown]) / system.scales[shown]))]
     if mode[largest] == 0.0:
         largest = int(np.argmax(np.abs(mode) / system.scales))
-    return mode * (system.scales[largest] / mode[largest]), state
+    return mode * (system.scales[largest] / mode[largest]), state, full.jacobian

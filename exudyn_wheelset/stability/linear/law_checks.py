@@ -18,23 +18,28 @@ small motion (tests/test_growth_rates_by_law.py): eigenvalues of laws with an ad
 A law may be linear with the wrong slope: spin softens the exact law, and most fast laws do not know
 it. slope_ratio is the law's -dF/dxi over that of the exact law on the same patch, of the patch and
 direction where it is farthest from 1.
+
+Contact forces may step or bend so near to the equilibrium that eigenvalues hold for nothing that
+moves: amplitude_error is by how much a motion of up to 10 um sees another one (amplitudes.py).
 """
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from exudyn_wheelset.creep import CREEP_LAWS
 from exudyn_wheelset.creep.slopes import creep_slopes
 from exudyn_wheelset.errors import WheelsetWarning
+from exudyn_wheelset.stability.linear.amplitudes import farthest_off
 from exudyn_wheelset.systems.system import Array, DynamicSystem
 
 ADDITIVITY_LIMIT = 0.02
 SLOPE_LIMIT = 0.10
+AMPLITUDE_LIMIT = 0.02
 SMALL = 1.0e-4
 PHASES = 6
 # The laws that the others are measured by, the cheaper first.
@@ -66,6 +71,8 @@ class LawCheck:
     direction      "x" (along) or "y" (lateral)
     where          wheelset and wheel of that patch
     meaning        what "linear" means for a law without a derivative; "" for the others
+    amplitude_error  |lambda(A) - lambda| over |Im lambda| of a motion of the lateral amplitude A
+    amplitude      [m] A where that is greatest, up to 10 um
     """
 
     additivity: float
@@ -76,6 +83,8 @@ class LawCheck:
     direction: str = ""
     where: str = ""
     meaning: str = ""
+    amplitude_error: float = 0.0
+    amplitude: float = 0.0
 
     @property
     def remark(self) -> str:
@@ -111,39 +120,54 @@ class LawCheck:
             f"creep={exact_law()!r}."
         )
 
+    def amplitude_warning(self, name: str, speed: float) -> str:
+        """What is wrong with the eigenvalue for motion of some micrometres; "" if nothing."""
+        if not self.amplitude_error > AMPLITUDE_LIMIT:
+            return ""
+        return (
+            f"{name} at {speed:.4g} m/s: motion of {1e6 * self.amplitude:.0f} um sees an "
+            f"eigenvalue that is {100.0 * self.amplitude_error:.0f} % of the frequency off (limit "
+            f"{100.0 * AMPLITUDE_LIMIT:.0f} %): forces step or bend beside the equilibrium, as "
+            "where patches of a measured profile merge. Take normal='energy', or the growth of "
+            "simulated motion of the amplitude that matters."
+        )
+
 
 def exact_law() -> str | None:
     """Name of the law that the others are measured by."""
     return next((name for name in EXACT_LAWS if name in CREEP_LAWS), None)
 
 
-def check_law(system: DynamicSystem, state: Array, speed: float, mode: Array) -> LawCheck:
+def check_law(
+    system: DynamicSystem, state: Array, speed: float, mode: Array, jacobian: Array
+) -> LawCheck:
     """Measure the creep law about an equilibrium (n,) along a mode (n,) at a speed [m/s].
 
-    Costs 6 PHASES + 1 right-hand sides and twelve forces a patch.
+    jacobian (n, n): at the equilibrium. Costs some 70 right-hand sides and twelve forces a patch.
     """
     measured = additivity(system, state, speed, mode)
     patches = [p for p in system.creep_patches(state, speed) if p.friction * p.normal_force > 0.0]
     laws = list(dict.fromkeys(patch.law.name for patch in patches))
     meanings = dict.fromkeys(p.law.when_linearised for p in patches if p.law.when_linearised)
     check = LawCheck(additivity=measured, law=" and ".join(laws), meaning=" ".join(meanings))
+    if measured <= ADDITIVITY_LIMIT:
+        off, amplitude = farthest_off(system, state, speed, mode, jacobian)
+        check = replace(check, amplitude_error=off, amplitude=amplitude)
     exact = exact_law()
     if exact is None or not patches:
         return check
     own, exactly = creep_slopes(patches), creep_slopes(patches, exact)
     with np.errstate(divide="ignore", invalid="ignore"):
-        off = np.abs(own / exactly - 1.0)
-    off[exactly < LEAST_SLOPE * creep_slopes(patches, "linear")] = 0.0
-    patch, direction = np.unravel_index(np.argmax(off), off.shape)
-    return LawCheck(
-        additivity=measured,
-        law=check.law,
+        wrong = np.abs(own / exactly - 1.0)
+    wrong[exactly < LEAST_SLOPE * creep_slopes(patches, "linear")] = 0.0
+    patch, direction = np.unravel_index(np.argmax(wrong), wrong.shape)
+    return replace(
+        check,
         slope_ratio=float(own[patch, direction] / exactly[patch, direction]),
         slope=float(own[patch, direction]),
         exact_slope=float(exactly[patch, direction]),
         direction="xy"[direction],
         where=patches[patch].where,
-        meaning=check.meaning,
     )
 
 
@@ -183,9 +207,11 @@ def warn_of_law(name: str, checks: Sequence[tuple[float, LawCheck]], level: int 
         return
     speed, check = max(checks, key=lambda entry: entry[1].additivity)
     steep_speed, steep = max(checks, key=lambda entry: abs((entry[1].slope_ratio or 1.0) - 1.0))
+    near_speed, near = max(checks, key=lambda entry: entry[1].amplitude_error)
     for fault, message in (
         ("not linear", check.additivity_warning(name, speed)),
         ("another slope", steep.slope_warning(name, steep_speed)),
+        ("not linear near by", near.amplitude_warning(name, near_speed)),
     ):
         if message:
             warning = LawWarning(message, about=f"{name}, {check.law}: {fault}")

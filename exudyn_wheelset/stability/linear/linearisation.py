@@ -141,7 +141,8 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     row = linear.hunting_row
     if row is None:
         return linear
-    law = check_law(system, linear.state, linear.speed, linear.eigenvectors[:, row])
+    mode = linear.eigenvectors[:, row]
+    law = check_law(system, linear.state, linear.speed, mode, linear.jacobian)
     warn_of_law(system.name, [(linear.speed, law)], level=4)
     return replace(linear, law=law)
 
