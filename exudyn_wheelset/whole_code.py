@@ -25,15 +25,20 @@ class Library(JITCodeLibrary):
         super().__init__(codegen, name)
         self._linkable: Any = None
         self._names: list[str] = []
+        self._parts: list[Library] = []
 
     def add_linking_library(self, library: Any) -> None:
         if isinstance(library, Library):
-            self._linking_libraries.append(library)
+            self._parts.append(library)
         else:
             super().add_linking_library(library)
 
     def _part(self) -> Any:
-        """Code of this function alone, as it is linked into others."""
+        """Code of this function alone, as it is linked into others.
+
+        Taken before the rest is linked in: what a function is compiled to must not depend on which
+        others have been compiled before it.
+        """
         if self._linkable is None:
             module = self._final_module.clone()
             for function in module.functions:
@@ -44,24 +49,22 @@ class Library(JITCodeLibrary):
         return self._linkable
 
     def finalize(self) -> None:
-        finished = []
+        self._part()
         inner = []
         seen = {self}
-        waiting = self._linking_libraries[::-1]
+        waiting = self._parts[::-1]
         while waiting:
             library = waiting.pop()
             if library in seen:
                 continue
             seen.add(library)
-            if isinstance(library, Library) and not library._finalized:
-                self._final_module.link_in(library._part(), preserve=True)
-                inner += library._names
-                waiting += library._linking_libraries[::-1]
-            else:
-                finished.append(library)
+            self._final_module.link_in(library._part(), preserve=True)
+            inner += library._names
+            waiting += library._parts[::-1]
+            self._linking_libraries += library._linking_libraries
         for name in inner:
             self._final_module.get_function(name).linkage = Linkage.internal
-        self._linking_libraries = finished
+        self._linking_libraries = list(dict.fromkeys(self._linking_libraries))
         super().finalize()
 
 
