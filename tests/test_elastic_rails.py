@@ -1,11 +1,20 @@
 """Elastic rails against statics and against rails that do not give way."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
-from exudyn_wheelset import ExudynSystem, WheelsetError, linear_critical_speed
+from exudyn_wheelset import ExudynSystem, Track, WheelsetError, linear_critical_speed
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
-from exudyn_wheelset.coupling.elastic_rails import RailElasticity, side_forces
+from exudyn_wheelset.contact.forces_apart import wheelset_forces
+from exudyn_wheelset.contact.layout import PARAMETERS, Axle, Velocity, new_result
+from exudyn_wheelset.contact.tables import contact_tables
+from exudyn_wheelset.contact.wheelset_contact import contact_parameters, read_result
+from exudyn_wheelset.coupling.elastic_apart import ELASTIC, elastic_forces
+from exudyn_wheelset.coupling.elastic_rails import RailElasticity
+from exudyn_wheelset.coupling.wheel_forces import wheel_force
+from exudyn_wheelset.geometry.rigid import contact_geometry
 
 
 def build(elasticity):
@@ -43,12 +52,12 @@ def test_rates_satisfy_the_equation_of_the_massless_rail():
     state[1] += 1e-3
     state[6] += 5e-3
     rates = system.derivative(state, 30.0)[-4:]
-    forces = np.zeros(4)
-    side_forces(items.contact.evaluate(mbs), forces)
+    found = items.contact.evaluate(mbs)
+    forces = np.ravel([wheel_force(found, hand) for hand in range(2)])
     stiffness = np.tile([elasticity.lateral_stiffness, elasticity.vertical_stiffness], 2)
     damping = np.tile([elasticity.lateral_damping, elasticity.vertical_damping], 2)
-    # The rates are the root of c d' + k d + F = 0, F of some 1e4 N; Newton leaves its last step.
-    np.testing.assert_allclose(damping * rates + stiffness * state[-4:] + forces, 0.0, atol=1e-2)
+    # The rates are the root of c d' + k d + F = 0, F of some 1e4 N, to rounding of F.
+    np.testing.assert_allclose(damping * rates + stiffness * state[-4:] + forces, 0.0, atol=1e-5)
 
 
 def test_stiff_rails_are_rigid_rails():
@@ -61,3 +70,37 @@ def test_stiff_rails_are_rigid_rails():
 def test_impossible_elasticity_names_the_mend():
     with pytest.raises(WheelsetError, match="lateral_stiffness = 0"):
         RailElasticity(lateral_stiffness=0.0)
+
+
+@pytest.mark.parametrize("slopes", [(0.0,) * 4, (1e-3, -5e-4, -2e-3, 1e-3)])
+@pytest.mark.parametrize("law", ["polach", "fastsim"])
+def test_forces_are_those_of_rails_that_move_with_the_rates(law, slopes):
+    """The same wheelset on rails that are led as the elastic ones move: one wrench."""
+    wheelset, track = paper_wheelset(1).wheelset, Track("UIC60")
+    table, parameters = contact_tables(wheelset, track), contact_parameters(creep=law)
+    parameters.view(PARAMETERS)["rail_speed"] = 30.0
+    height = float(contact_geometry(wheelset, track, [4e-3]).z[0])
+    axle = Axle(4e-3, height - 3e-4, -2e-3, 1.0, 1e-4)
+    velocity = Velocity(0.01, 0.02, -0.005, 0.01, 30.0 / wheelset.radius, 0.02)
+    motion = np.zeros(12)
+    motion[:2] = 2e-4, -1e-4
+    motion[8:] = slopes
+    elasticity = RailElasticity().numbers()
+    shifts = np.array([1e-4, -8e-4, -1e-4, -7e-4])
+    rates, slope, result = np.zeros(4), np.zeros(8), new_result()
+    ELASTIC.ready()
+    elastic_forces(
+        table, axle, velocity, motion, parameters, result, elasticity, shifts, rates, slope
+    )
+    led, compared = motion.copy(), new_result()
+    led[:4] += shifts
+    led[4:8] += rates
+    wheelset_forces(table, axle, velocity, led, parameters, compared)
+    found, expected = read_result(result), read_result(compared)
+    # Equal but for the order of sums.
+    np.testing.assert_allclose(result[:6], compared[:6], rtol=1e-9, atol=1e-5)
+    for one, other in zip(found.left + found.right, expected.left + expected.right, strict=True):
+        for field in fields(one):
+            values = getattr(one, field.name), getattr(other, field.name)
+            np.testing.assert_allclose(*values, rtol=1e-9, atol=1e-9, err_msg=field.name)
+    assert np.max(np.abs(rates)) > 1e-4

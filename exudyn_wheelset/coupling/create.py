@@ -217,11 +217,7 @@ def _create_rails(mbs: Any, contact: WheelRailContact, name: str) -> None:
             numberOfODE1Coordinates=4,
         )
     )
-
-    def rates_of(mbs: Any, t: float, item: int, shifts: Any) -> list[float]:
-        return contact.rail_rates(mbs, t)
-
-    rates: Any = rates_of
+    rates: Any = contact.rail_function()
 
     # A rail gives way by a tenth of a millimetre under a wheel.
     name_states(

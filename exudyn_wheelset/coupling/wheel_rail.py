@@ -33,6 +33,7 @@ from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import ContactForces, read_result
 from exudyn_wheelset.coupling.changing_rails import ChangingRails
+from exudyn_wheelset.coupling.elastic_apart import ELASTIC
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance, guidance
 from exudyn_wheelset.coupling.track_frame import TrackFrame
@@ -48,8 +49,10 @@ from exudyn_wheelset.coupling.wheelset_kernel import (
     RESULT,
     SECTIONS,
     SHIFTS,
+    SLOPES,
     STATION,
     body_wrench,
+    rail_rates_at,
     stance,
     wheel_history,
     wrench_at,
@@ -96,9 +99,9 @@ class WheelRailContact:
         self.reference = self._state[REFERENCE]
         self.rail_motion = self._state[RAIL_MOTION]
         self._memory = self._state[MEMORY]
-        self._shifts = self._state[SHIFTS]
         if self.elasticity is not None:
             self._state[ELASTICITY] = self.elasticity.numbers()
+            ELASTIC.ready()
         if rails_change(self.track):
             self._sections = ChangingRails(self.wheelset, self.track)
             self._state[SECTIONS] = self._sections.numbers()
@@ -110,7 +113,6 @@ class WheelRailContact:
         self._data: Any = None
         self.first = -1
         self.node = -1
-        self._wrench = self.load_function(0)
         self.set_speed(self.rail_speed)
 
     def set_speed(self, speed: float) -> None:
@@ -152,16 +154,22 @@ class WheelRailContact:
         and implicit solvers, their Jacobians by differences included); an Assemble after items
         have been added moves them, and changes their number.
         """
+        return self._function(wrench_at, part)
+
+    def rail_function(self) -> Callable[[Any, float, Any, Any], tuple[float, ...]]:
+        """User function of the rates [m/s] of elastic rails' shifts: left y, z, right y, z."""
+        return self._function(rail_rates_at, 0)
+
+    def _function(self, of_block: Any, part: int) -> Callable[..., Any]:
         table, state, track = self.table, self._state, self.track_frame.array
         sizes = (len(table), len(state), len(track))
-        block = np.array([0, 0, 0, 0, 0, 0, *sizes, -1, part], dtype=np.int64)
+        block = np.array([0, 0, 0, 0, 0, 0, *sizes, -1, part, 0], dtype=np.int64)
         block[2:5] = address_of(table), address_of(state), address_of(track)
         address = address_of(block)
         known = -1
         count: Callable[[], int]
-        elastic = self.elasticity is not None
 
-        def wrench(mbs: Any, t: float, load: Any) -> tuple[float, float, float]:
+        def computed(mbs: Any, t: float, item: Any, shifts: Any = None) -> Any:
             nonlocal known, count
             if known < 0 or count() != known:
                 self.place(mbs)
@@ -171,26 +179,16 @@ class WheelRailContact:
                 v = self._data.GetODE2Coordinates_t(_CURRENT, False)
                 block[:2] = address_of(q), address_of(v)
                 block[5], block[9] = known, self.first
-            if elastic:
-                self._move_rails()
-            return wrench_at(address, t)
+                if self.elasticity is not None:
+                    strokes = self._data.GetODE1Coordinates(_CURRENT, False)
+                    block[11] = address_of(strokes[self._rail_place])
+            return of_block(address, t)
 
-        return wrench
+        return computed
 
     def attach_rails(self, rail_object: Any) -> None:
         """Bind the four first-order coordinates of the elastic rails' shifts."""
         self._rail_object = rail_object
-
-    def rail_rates(self, mbs: Any, t: float) -> list[float]:
-        """Rates [m/s] of the elastic rails' shifts: left y, z, right y, z."""
-        self._wrench(mbs, t, None)
-        return self._state[RATES].tolist()
-
-    def _move_rails(self) -> None:
-        shifts = self._data.GetODE1Coordinates()[self._rail_place]
-        if not np.array_equal(shifts, self._shifts):
-            self._shifts[:] = shifts
-            self.forget()
 
     def current(self, mbs: Any, configuration: Any = None) -> ContactForces:
         """Patches and wrench at the current state of the system (or another configuration)."""
@@ -208,7 +206,7 @@ class WheelRailContact:
         state[REFERENCE] = self.reference
         state[RAIL_MOTION] = self.rail_motion
         state[ELASTICITY] = self._state[ELASTICITY]
-        state[RATES] = self._state[RATES]
+        state[RATES], state[SLOPES] = self._state[RATES], self._state[SLOPES]
         if self.elasticity is not None:
             state[SHIFTS] = data.GetODE1Coordinates(*arguments)[self._rail_place]
         state[MEMORY] = np.nan

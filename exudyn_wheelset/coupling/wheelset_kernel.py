@@ -23,7 +23,7 @@ from exudyn_wheelset.contact import layout as kernel
 from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import Axle, Velocity, side_of
 from exudyn_wheelset.coupling.changing_rails import changing_forces
-from exudyn_wheelset.coupling.elastic_rails import elastic_forces
+from exudyn_wheelset.coupling.elastic_apart import elastic_forces
 from exudyn_wheelset.coupling.track_kernel import (
     CURVED,
     KNOTS,
@@ -37,7 +37,7 @@ from exudyn_wheelset.coupling.wheel_forces import wheel_values
 
 # Everything of a contact that changes stands in one array, for unpacking an array costs a call from
 # Python a good part of what a patch costs: coordinates and time that a result belongs to, the
-# body's reference position, the rails' motion, where the wheelset stands on the track and how the
+# body's reference position, the rails' motion, what elastic rails give way by and how, where the wheelset stands on the track and how the
 # track lies there, the parameters, the result.
 MEMORY = slice(0, 13)
 REFERENCE = slice(13, 16)
@@ -45,12 +45,13 @@ RAIL_MOTION = slice(16, 28)
 ELASTICITY = slice(28, 32)
 SHIFTS = slice(32, 36)
 RATES = slice(36, 40)
-PLACE = slice(40, 48)
-TRACK_POSE = slice(48, 60)
+SLOPES = slice(40, 48)
+PLACE = slice(48, 56)
+TRACK_POSE = slice(56, 68)
 # Address and length of what changing_rails.py of this folder holds, 0 for rails of one profile.
-SECTIONS = slice(60, 62)
-PARAMETERS = slice(62, 62 + kernel.PARAMETER_COUNT)
-RESULT = slice(62 + kernel.PARAMETER_COUNT, None)
+SECTIONS = slice(68, 70)
+PARAMETERS = slice(70, 70 + kernel.PARAMETER_COUNT)
+RESULT = slice(70 + kernel.PARAMETER_COUNT, None)
 # In the track's own frame at the wheelset: y, z [m] of its centre, the axle's direction, speed
 # over the rails [m/s], station [m].
 Y, Z, LX, LY, LZ, FORWARD, STATION = range(7)
@@ -180,7 +181,7 @@ def body_wrench(q, v, first, table, state, track, t, part):
         if elasticity[0] > 0.0:
             elastic_forces(
                 table, axle, velocity, motion, parameters, result,
-                elasticity, state[SHIFTS], state[RATES],
+                elasticity, state[SHIFTS], state[RATES], state[SLOPES],
             )  # fmt: skip
         elif sections[0] != 0.0:
             changing_forces(sections, place[STATION], axle, velocity, motion, parameters, result)
@@ -237,22 +238,45 @@ def stance(table, state, place):
     place[6] = here[FORWARD]
 
 
+@compiled(inline="always")
+def move_rails(shifts, state):
+    """Take over the shifts (4) [m] of elastic rails; what was computed at others is forgotten."""
+    known = state[SHIFTS]
+    for k in range(4):
+        if known[k] != shifts[k]:
+            known[k] = shifts[k]
+            state[0] = np.nan
+
+
 @compiled
 def wrench_at(block, t):
     """As `body_wrench` at time t [s], its other arguments in the block of integers at this address.
 
-    Addresses of q, v, table, state and track, their lengths (q and v have the same), first, part.
+    Addresses of q, v, table, state and track, their lengths (q and v have the same), first, part,
+    address of the shifts of elastic rails, or 0.
     """
-    q, v, table, state, track, size, table_size, state_size, track_size, first, part = integers_at(
-        block, 11
+    q, v, table, state, track, size, table_size, state_size, track_size, first, part, shifts = (
+        integers_at(block, 12)
     )
+    own = numbers_at(state, state_size)
+    if shifts != 0:
+        move_rails(numbers_at(shifts, 4), own)
     return body_wrench(
         numbers_at(q, size),
         numbers_at(v, size),
         first,
         numbers_at(table, table_size),
-        numbers_at(state, state_size),
+        own,
         numbers_at(track, track_size),
         t,
         part,
     )
+
+
+@compiled
+def rail_rates_at(block, t):
+    """Rates [m/s] of the shifts of elastic rails, left y, z, right y, z, as `wrench_at`."""
+    wrench_at(block, t)
+    head = integers_at(block, 12)
+    rates = numbers_at(head[3], head[7])[RATES]
+    return rates[0], rates[1], rates[2], rates[3]

@@ -30,6 +30,7 @@ def warm_up(everything: bool = False, progress: bool = False) -> float:
             "strips": _strips,
             "exact creep law": _exact,
             "creep laws": _creep_laws,
+            "elastic rails": _elastic_rails,
             "vehicles": _vehicles,
         }
     with tqdm(steps.items(), disable=not progress, unit="kernel") as bar:
@@ -76,6 +77,12 @@ def _creep_laws() -> None:
     from exudyn_wheelset.creep import creep_force
 
     creep_force("polach", 1e-3, 0.0, 0.0, 5e-3, 5e-3, 1e5, 0.3, 8e10, 0.28)
+
+
+def _elastic_rails() -> None:
+    from exudyn_wheelset.coupling.elastic_apart import ELASTIC
+
+    ELASTIC.ready()
 
 
 def _vehicles() -> None:
