@@ -37,8 +37,8 @@ from exudyn_wheelset.coupling.wheel_forces import wheel_values
 
 # Everything of a contact that changes stands in one array, for unpacking an array costs a call from
 # Python a good part of what a patch costs: coordinates and time that a result belongs to, the
-# body's reference position, the rails' motion, what elastic rails give way by and how, where the wheelset stands on the track and how the
-# track lies there, the parameters, the result.
+# body's reference position, the rails' motion, by what and how elastic rails give way, where the
+# wheelset stands on the track and how the track lies there, the parameters, the result.
 MEMORY = slice(0, 13)
 REFERENCE = slice(13, 16)
 RAIL_MOTION = slice(16, 28)
