@@ -138,8 +138,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
         chosen = chosen_vehicle(arguments)
-        out = None if arguments.json else arguments.out
-        options = {"descent": arguments.descent, "out": out, "progress": out is not None}
+        options = {"descent": arguments.descent, "out": arguments.out}
+        options["progress"] = not arguments.json
         return run(chosen, settings=get_ready(arguments), **options)
 
     return run_script(work, parser, argv, show)

@@ -102,9 +102,10 @@ def _compute(arguments: argparse.Namespace) -> dict[str, Any]:
     if arguments.descent:
         descent = nonlinear_critical_speed(system, "descent", hopf=hopf, progress=progress)
         numbers["fold_by_descent"] = float(descent)
-    write_json(arguments.out / "cooperrider_bogie.json", numbers, system=system.measures())
-    branch.save(arguments.out / "cooperrider_bogie.npz")
-    _draw(branch, arguments.out / "cooperrider_bogie.png")
+    if arguments.out is not None:
+        write_json(arguments.out / "cooperrider_bogie.json", numbers, system=system.measures())
+        branch.save(arguments.out / "cooperrider_bogie.npz")
+        _draw(branch, arguments.out / "cooperrider_bogie.png")
     return numbers
 
 

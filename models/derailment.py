@@ -141,7 +141,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     add_creep_option(parser, "exact-table")
 
     def chosen(arguments: argparse.Namespace) -> dict[str, Any]:
-        return run(out=None if arguments.json else arguments.out, **law_changes(arguments.creep))
+        return run(out=arguments.out, **law_changes(arguments.creep))
 
     return run_script(chosen, parser, argv, _show)
 

@@ -135,8 +135,7 @@ def _show(numbers: dict[str, Any]) -> None:
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
     changes = {"wedge_friction": arguments.wedge_friction, **chosen_changes(arguments)}
-    out = None if arguments.json else arguments.out
-    return run(out=out, progress=not arguments.json, **changes)
+    return run(out=arguments.out, progress=not arguments.json, **changes)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

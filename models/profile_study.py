@@ -27,15 +27,9 @@ import numpy as np
 
 from exudyn_wheelset import nonlinear_critical_speed
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
+from exudyn_wheelset.front import script
 from exudyn_wheelset.front.output import write_figure
 from exudyn_wheelset.front.plots import new_figure
-from exudyn_wheelset.front.script import (
-    inclination_of,
-    own_options,
-    run_script,
-    script_parser,
-    smoothing_of,
-)
 from exudyn_wheelset.front.vehicle_options import ChosenVehicle, named_vehicle
 from exudyn_wheelset.geometry.conicity import equivalent_conicity
 from exudyn_wheelset.geometry.rolling_radius import rolling_radius_curve
@@ -45,15 +39,16 @@ from exudyn_wheelset.stability.subject import as_system, description_of
 from exudyn_wheelset.studies import Study, files, study
 
 AMPLITUDES_MM = (2, 3, 4)
-# Shift looked at for the conicity [m]: 4 mm and the way of the centre.
-REACH = 7.0e-3
+REACH = 7.0e-3  # [m]: 4 mm and the way of the centre
 
 
-def pair(case: dict[str, Any], name: str, smoothing: float | str, changes: dict) -> dict[str, Any]:
-    """The numbers of one pair of profiles, wheel and rail, under a vehicle of the catalogue."""
+def pair(
+    case: dict[str, Any], name: str, smoothing: float | str, changes: Sequence[Sequence[Any]]
+) -> dict[str, Any]:
+    """The numbers of a pair of profiles under a vehicle; changes: pairs for `catalogue.Changes`."""
     wheel = load_profile(case["wheel"], kind="wheel", smoothing=smoothing)
     rail = load_profile(case["rail"], kind="rail", smoothing=smoothing)
-    found = description_of(named_vehicle(name, wheel=wheel, rail=rail, **changes))
+    found = description_of(named_vehicle(name, wheel=wheel, rail=rail, **dict(changes)))
     wheelset = found.wheelsets[0].wheelset
     curve = rolling_radius_curve(wheelset, found.track, REACH)
     amplitudes = [1e-3 * amplitude for amplitude in AMPLITUDES_MM]
@@ -84,29 +79,23 @@ def run(
     gauge: float | None = None,
     inclination: float | None = None,
     processes: int | None = None,
-    out: str | PathLike = Path("runs") / "out",
+    out: str | PathLike | None = None,
 ) -> dict[str, Any]:
-    """The study of all pairs, its files under `out`, and the pairs by rising critical speed."""
+    """The study of all pairs, by rising critical speed; with `out`, its files."""
     named_vehicle(vehicle)
     axles, tracks = files(wheels, pattern, name="wheel"), files(rails, pattern, name="rail")
     cases = [{**wheel, **rail} for wheel in axles for rail in tracks]
     asked = {"gauge": gauge, "inclination": inclination}
     changes = {name: value for name, value in asked.items() if value is not None}
     settings = {"name": vehicle, "smoothing": smoothing, "changes": list(changes.items())}
-    out = Path(out)
-    found = study(_pair, cases, processes, out / "profile_study.jsonl", settings=settings)
-    kept = [found.save_csv(out / "profile_study.csv")]
-    if "nonlinear" in found.table:
+    stem = None if out is None else Path(out) / "profile_study"
+    found = study(pair, cases, processes, stem and f"{stem}.jsonl", settings=settings)
+    kept = [found.save_csv(f"{stem}.csv")] if stem else []
+    if stem and "nonlinear" in found.table:
         figure, axes = new_figure(7.0, 5.0)
         found.map("wheel", "rail", "nonlinear", ax=axes[0, 0])
-        kept.append(write_figure(out / "profile_study.png", figure))
+        kept.append(write_figure(f"{stem}.png", figure))
     return {"pairs": len(found), "ranked": ranked(found), "files": list(map(str, kept))}
-
-
-def _pair(
-    case: dict[str, Any], name: str, smoothing: float | str, changes: Sequence[Sequence[Any]]
-) -> dict[str, Any]:
-    return pair(case, name, smoothing, dict(changes))
 
 
 def ranked(found: Study) -> list[dict[str, Any]]:
@@ -136,24 +125,24 @@ def show(numbers: dict[str, Any]) -> None:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run from the command line; exit status."""
-    parser = script_parser(str(__doc__).splitlines()[0], settings=False)
+    parser = script.script_parser(str(__doc__).splitlines()[0], settings=False)
     add = parser.add_argument
     add("--wheels", help="folder of wheel profiles")
     add("--rails", help="folder of rail profiles")
     add("--vehicle", default="s1002", help="name of the catalogue, or a file")
     add("--pattern", default="*.*", help="of the files' names")
-    add("--smoothing", type=smoothing_of, default="auto", help="'auto', or 0 for none")
+    add("--smoothing", type=script.smoothing_of, default="auto", help="'auto', or 0 for none")
     add("--gauge", type=float, help="[m]; default the vehicle's own")
-    add("--inclination", type=inclination_of, help="of the rails; 0 if measured in place")
+    add("--inclination", type=script.inclination_of, help="of the rails; 0 if measured in place")
     add("--processes", type=int, help="default: as many as there are cores")
 
     def work(arguments: argparse.Namespace) -> dict[str, Any]:
-        values = own_options(arguments)
+        values = script.own_options(arguments)
         if not values["wheels"] or not values["rails"]:
             raise WheelsetError("give folders of profiles: --wheels FOLDER --rails FOLDER")
         return run(**values)
 
-    return run_script(work, parser, argv, show)
+    return script.run_script(work, parser, argv, show)
 
 
 if __name__ == "__main__":

@@ -122,10 +122,9 @@ def _show(numbers: dict[str, Any]) -> None:
 
 
 def _run(arguments: argparse.Namespace) -> dict[str, Any]:
-    out = None if arguments.json else arguments.out
     given = {name: getattr(arguments, name) for name in ("spectrum", "seed", "duration")}
     given |= {"vehicle": arguments.vehicle, **chosen_changes(arguments)}
-    return run(out=out, progress=not arguments.json, **given)
+    return run(out=arguments.out, progress=not arguments.json, **given)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -2,9 +2,8 @@
 
 Run `python models/simple_truck.py`. The truck is that of the DTU passenger car: a frame and two
 wheelsets, each a rigid body with six degrees of freedom, under a car body that runs straight.
-It is started in the shape of its critical mode below and above the critical speed; the growth of
-the simulated motion stands beside the eigenvalue's. Figure, time histories and numbers land under
-runs/out/; `--picture` draws the truck.
+It is started in the shape of its critical mode below and above the critical speed; growth of the
+simulated motion beside the eigenvalue's. Figure, time histories and numbers land under runs/out/.
 """
 
 from __future__ import annotations
@@ -28,6 +27,7 @@ from exudyn_wheelset.front.output import keep_runs
 from exudyn_wheelset.front.pictures import draw_picture
 from exudyn_wheelset.front.plots import new_figure, pair_name
 from exudyn_wheelset.front.script import (
+    DEFAULT_OUT,
     add_profile_options,
     finished,
     get_ready,
@@ -60,10 +60,7 @@ def run(
     progress: bool = False,
     factors: Sequence[float] = FACTORS,
 ) -> tuple[dict[str, Any], list[Motion], CriticalPoint]:
-    """Numbers of the header, motions at `factors` times the critical speed, the critical point.
-
-    After Ctrl-C the motions so far are returned; the last one's outcome says so.
-    """
+    """Numbers of the header, motions at `factors` times the critical speed, the critical point."""
     truck = truck or catalogue.vehicle("truck")
     settings = settings or load_settings(DEFAULT_SETTINGS)
     times = output_of(settings, duration)
@@ -133,15 +130,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         contact = {**law_changes(arguments.creep), "friction": arguments.friction}
         truck = catalogue.vehicle("truck", **contact, **profiles_from(arguments).changes)
         settings = get_ready(arguments)
-        numbers, motions, critical = run(
-            truck, arguments.amplitude, settings, arguments.duration, not arguments.json
-        )
-        figure = draw(truck, critical, numbers, motions)
-        about = {"parameters": truck.parameters(), "settings": changed_settings(settings)}
-        keep_runs(arguments.out / "simple_truck", numbers, motions, figure, **about)
+        given = (arguments.amplitude, settings, arguments.duration, not arguments.json)
+        numbers, motions, critical = run(truck, *given)
+        stem = (arguments.out or DEFAULT_OUT) / "simple_truck"
+        if arguments.out is not None:
+            figure = draw(truck, critical, numbers, motions)
+            about = {"parameters": truck.parameters(), "settings": changed_settings(settings)}
+            keep_runs(stem, numbers, motions, figure, **about)
         if arguments.picture:
             camera = Camera(azimuth=0.75, elevation=0.36, centre=(0.0, 0.0, 0.25), zoom=3.0)
-            draw_picture(arguments.out / "simple_truck_picture.png", truck, None, camera, (-4, 4))
+            draw_picture(f"{stem}_picture.png", truck, None, camera, (-4, 4))
         return finished(numbers, motions)
 
     return run_script(work, parser, argv, show)

@@ -27,6 +27,7 @@ from exudyn_wheelset.front.output import keep_runs
 from exudyn_wheelset.front.pictures import draw_film, draw_picture
 from exudyn_wheelset.front.plots import pair_name
 from exudyn_wheelset.front.script import (
+    DEFAULT_OUT,
     add_profile_options,
     finished,
     get_ready,
@@ -126,11 +127,13 @@ def main(argv: Sequence[str] | None = None) -> int:
             title += f", critical speed {numbers['critical_speed']:.2f} m/s"
         figure = released_figure(motions, numbers["runs"], "wheelset", title)
         about = {"parameters": model.parameters(), "settings": changed_settings(settings)}
-        keep_runs(arguments.out / "single_wheelset", numbers, motions, figure, **about)
+        out = arguments.out or DEFAULT_OUT
+        if arguments.out is not None:
+            keep_runs(out / "single_wheelset", numbers, motions, figure, **about)
         if arguments.picture:
-            draw_picture(arguments.out / "single_wheelset_picture.png", model, motions[-1])
+            draw_picture(out / "single_wheelset_picture.png", model, motions[-1])
         if arguments.film:
-            draw_film(arguments.out / "single_wheelset.gif", model, motions[-1])
+            draw_film(out / "single_wheelset.gif", model, motions[-1])
         return finished(numbers, motions)
 
     return run_script(work, parser, argv, show)

@@ -115,10 +115,3 @@ def branch_of_two_trucks():
 def test_each_truck_has_the_lowest_orbit_on_which_it_hunts(branch_of_two_trucks):
     """The rear one the fold beside its first stable orbit, the front one 41.37 m/s."""
     assert lowest_by_truck(*branch_of_two_trucks) == {"rear": 40.808, "front": 41.37}
-
-
-def test_json_has_the_promised_keys(capsys):
-    assert car.main(["--vehicle", "three_axle_truck", "--json", "--no-descent"]) == 0
-    printed = json.loads(capsys.readouterr().out)
-    promised = {"linear_critical_speed", "frequency_hz", "mode_name", "damping", "hopf", "by_truck"}
-    assert promised <= set(printed)

@@ -2,7 +2,7 @@
 it writes, wrong input in one line."""
 
 import pytest
-from model_scripts import call, load, printed_numbers, table_of
+from model_scripts import call, load, table_of
 
 from exudyn_wheelset import catalogue
 
@@ -60,11 +60,3 @@ def test_files_are_written(numbers):
 def test_impossible_friction_is_one_line(capsys):
     assert call("freight_car", "--json", "--wedge-friction", "-0.1") == 2
     assert "wedge_friction" in capsys.readouterr().err
-
-
-def test_json_prints_the_numbers_alone(capsys, monkeypatch):
-    monkeypatch.setattr(freight_car, "HUNT", 0.05)
-    monkeypatch.setattr(freight_car, "FRICTIONS", ())
-    assert call("freight_car", "--json") == 0
-    promised = {"wheel_loads", "modes", "neutral", "critical", "hunt"}
-    assert promised <= set(printed_numbers(capsys))

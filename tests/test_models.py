@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from model_scripts import ROOT, SCRIPTS, call
+from model_scripts import ROOT, SCRIPTS, call, load
 
 from exudyn_wheelset.front.settings import changed_settings, load_settings
 
@@ -90,6 +90,81 @@ def test_impossible_values_end_with_status_2(name, arguments, word, tmp_path, ca
     captured = capsys.readouterr()
     assert captured.out == "" and word in captured.err
     assert len(captured.err.strip().splitlines()) == 1
+
+
+# A short way through each script: options, constants of the script, keys its header promises.
+SHORT = {
+    "bifurcation": (
+        ["--vehicle", "cooperrider", "--speeds", "68.2", "69", "--intervals", "12"],
+        {},
+        "hopf folds nonlinear_critical_speed method points seconds reason",
+    ),
+    "car": (
+        ["--vehicle", "three_axle_truck", "--no-descent"],
+        {},
+        "linear_critical_speed frequency_hz mode_name damping hopf by_truck wheel_loads",
+    ),
+    "conicity": (["--amplitudes-mm", "3"], {}, "conicity shift"),
+    "contact_geometry": (["--wheel=S1002", "--half-range=0.001"], {}, "S1002_on_UIC60"),
+    "cooperrider_bogie": (
+        ["--reference", "--speeds", "70"],
+        {"INTERVALS": 20, "BRANCH_SPEEDS": (66.0, 70.0)},
+        "hopf fold amplitude_mm",
+    ),
+    "curving": (
+        [],
+        {"STRAIGHT": 25.0, "TRANSITION": 15.0, "CURVE": 20.0},
+        "steady limits greatest difference outcome",
+    ),
+    "derailment": (
+        [],
+        {"FRICTIONS": (0.3,), "ATTACKS": (40.0,)},
+        "flange_angle friction attack",
+    ),
+    "freight_car": (
+        [],
+        {"HUNT": 0.05, "FRICTIONS": ()},
+        "wheel_loads modes neutral critical hunt",
+    ),
+    "profile_study": (["--smoothing=0", "--processes=1"], {}, "pairs ranked"),
+    "rough_track": (["--duration", "5.2"], {}, "60 160"),
+    "simple_truck": (
+        ["--duration=0.3"],
+        {},
+        "wheel_loads critical_speed frequency mode runs weight amplitude",
+    ),
+    "single_wheelset": (
+        ["--speed=30", "--duration=0.3"],
+        {},
+        "critical_speed frequency offset runs",
+    ),
+    "table2": (["--rows", "mohan"], {}, "mohan assumed"),
+}
+
+
+def test_every_script_has_a_short_way():
+    assert sorted(SHORT) == SCRIPTS
+
+
+@pytest.mark.filterwarnings("ignore::exudyn_wheelset.WheelsetWarning")
+@pytest.mark.parametrize("name", SHORT)
+def test_json_prints_the_numbers_and_writes_nothing(name, tmp_path, monkeypatch, capsys):
+    words, constants, promised = SHORT[name]
+    if name == "profile_study":
+        for kind in ("wheels", "rails"):
+            folder = tmp_path / kind
+            folder.mkdir()
+            (folder / "broken.txt").write_text("no profile\n")
+            words = [*words, f"--{kind}={folder}"]
+    for constant, value in constants.items():
+        monkeypatch.setattr(load(name), constant, value)
+    folder = tmp_path / "empty"
+    folder.mkdir()
+    monkeypatch.chdir(folder)
+    assert call(name, "--json", *words) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert set(promised.split()) <= {key.replace(" ", "_") for key in printed}
+    assert list(folder.iterdir()) == []
 
 
 @pytest.mark.parametrize("path", SETTINGS, ids=lambda path: path.stem)

@@ -240,7 +240,12 @@ def run_parsed(
     prog: str,
     show: Callable[[dict[str, Any]], None] | None = None,
 ) -> int:
-    """As `run_script`, with the command line already parsed; prog: name of the script."""
+    """As `run_script`, with the command line already parsed; prog: name of the script.
+
+    With --json nothing is written but where --out says: `arguments.out` is None without it.
+    """
+    if arguments.json and getattr(arguments, "out", None) is DEFAULT_OUT:
+        arguments.out = None
     # With --json only numbers on one stream and errors on the other: no word of kernels compiled.
     quiet = logging.ERROR if arguments.json else logging.WARNING
     with _remarks_of(prog, logging.INFO if arguments.verbose else quiet):
