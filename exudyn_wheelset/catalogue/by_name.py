@@ -11,7 +11,7 @@ from __future__ import annotations
 import difflib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import exudyn as exu
 
@@ -88,7 +88,8 @@ def system_of(vehicle: Any, settings: exu.SimulationSettings | None = None) -> D
     if isinstance(vehicle, Vehicle):
         return systems.vehicle_system(vehicle, settings=settings)
     if not isinstance(vehicle, DynamicSystem):
-        return vehicle.dynamic_system(settings=settings)
+        system: DynamicSystem = vehicle.dynamic_system(settings=settings)
+        return system
     if settings is not None:
         raise WheelsetError(f"{vehicle.name} is not built in Exudyn: leave the solver settings out")
     return vehicle
@@ -138,7 +139,10 @@ def s1002_wheelset(
     )
 
 
-def _on_track(made: Any, changes: Changes) -> Any:
+_OnSprings = TypeVar("_OnSprings", WheelsetOnFrame, Truck)
+
+
+def _on_track(made: _OnSprings, changes: Changes) -> _OnSprings:
     """A vehicle with its track and its wheelsets changed."""
     track = made.track
     changed = {name: getattr(track, name) for name in _TRACK} | changes.given(*_TRACK)

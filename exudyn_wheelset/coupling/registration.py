@@ -75,7 +75,7 @@ class FirstOrderState:
             )
 
 
-def register_wheelset(function: Callable, items: WheelsetItems) -> None:
+def register_wheelset(function: Callable[..., Any], items: WheelsetItems) -> None:
     """Let `function`, the user function of a wheelset's force load, tell of the wheelset."""
     setattr(function, _WHEELSET, items)
 
@@ -108,7 +108,9 @@ def wheelsets_of(mbs: Any) -> tuple[WheelsetItems, ...]:
     return tuple(found)
 
 
-def name_states(function: Callable, states: Sequence[FirstOrderState]) -> Callable:
+def name_states(
+    function: Callable[..., Any], states: Sequence[FirstOrderState]
+) -> Callable[..., Any]:
     """Let `function`, the right-hand side of an ObjectGenericODE1, name its states; return it.
 
     states: one for each coordinate of the object, in the order of its nodes. ExudynSystem takes

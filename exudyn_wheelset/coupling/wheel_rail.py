@@ -182,7 +182,8 @@ class WheelRailContact:
                 if self.elasticity is not None:
                     strokes = self._data.GetODE1Coordinates(_CURRENT, False)
                     block[11] = address_of(strokes[self._rail_place])
-            return of_block(address, t)
+            found: tuple[float, float, float] = of_block(address, t)
+            return found
 
         return computed
 

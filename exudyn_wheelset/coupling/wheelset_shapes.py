@@ -60,13 +60,14 @@ def _disc(place: float, radius: float) -> list[dict[str, Any]]:
     def across(
         x: float, z: float, size: float, wide: float, colour: list[float], tiles: int
     ) -> dict[str, Any]:
-        return graphics.Cylinder(
+        made: dict[str, Any] = graphics.Cylinder(
             pAxis=[x, place - 0.5 * wide, z],
             vAxis=[0, wide, 0],
             radius=size,
             color=colour,
             nTiles=tiles,
         )
+        return made
 
     items = [across(0.0, 0.0, 0.82 * radius, 0.04, _DISC, 48)]
     items.append(across(0.0, 0.0, 0.3 * radius, 0.12, _STEEL, 32))

@@ -61,12 +61,12 @@ class Camera:
         return np.array([right, np.cross(right, forward), -forward])
 
 
-def rail_graphics(track: Track, start: float = -3.0, end: float = 3.0) -> list[dict]:
+def rail_graphics(track: Track, start: float = -3.0, end: float = 3.0) -> list[dict[str, Any]]:
     """Both rails, sleepers and ballast from x = start to x = end [m] for Exudyn's renderer."""
     return [*_rails(track, start, end), *_sleepers(start, end, 0.0)]
 
 
-def _rails(track: Track, start: float, end: float) -> list[dict]:
+def _rails(track: Track, start: float, end: float) -> list[dict[str, Any]]:
     """Rails and ballast."""
     if not start < end:
         raise WheelsetError(f"rails from {start!r} m to {end!r} m: give start < end")
@@ -75,7 +75,7 @@ def _rails(track: Track, start: float, end: float) -> list[dict]:
     return [item for k in range(count) for item in _piece(track, ends[k], ends[k + 1])]
 
 
-def _piece(track: Track, start: float, end: float) -> list[dict]:
+def _piece(track: Track, start: float, end: float) -> list[dict[str, Any]]:
     length = end - start
     along_x = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     items = []
@@ -106,7 +106,7 @@ def _piece(track: Track, start: float, end: float) -> list[dict]:
     return items
 
 
-def _sleepers(start: float, end: float, travelled: float) -> list[dict]:
+def _sleepers(start: float, end: float, travelled: float) -> list[dict[str, Any]]:
     """Sleepers, moved back by what has been travelled [m]."""
     depth, width, height = SLEEPER_SIZE
     top = -RAIL_HEIGHT - 0.5 * height
@@ -129,15 +129,15 @@ def show_rails(
     speed [m/s]: of the model's frame, at which the sleepers pass by.
     """
     if not speed:
-        return mbs.CreateGround(graphicsDataList=rail_graphics(track, start, end))
+        return int(mbs.CreateGround(graphicsDataList=rail_graphics(track, start, end)))
 
-    def sleepers(mbs: Any, item: int) -> list[dict]:
+    def sleepers(mbs: Any, item: int) -> list[dict[str, Any]]:
         time = mbs.systemData.GetTime(exu.ConfigurationType.Visualization)
         return _sleepers(start, end, speed * time)
 
     visual = VObjectGround(graphicsDataUserFunction=sleepers)  # type: ignore[arg-type]
     mbs.AddObject(ObjectGround(name="sleepers", visualization=visual))
-    return mbs.CreateGround(graphicsDataList=_rails(track, start, end))
+    return int(mbs.CreateGround(graphicsDataList=_rails(track, start, end)))
 
 
 def render(

@@ -252,7 +252,8 @@ def _shown(rows: np.ndarray, progress: bool, motion: Motion) -> Iterable[int]:
         return rows
     from tqdm import tqdm
 
-    return tqdm(rows, desc=f"film at {motion.speed:g} m/s", unit="pictures")
+    shown: Iterable[int] = tqdm(rows, desc=f"film at {motion.speed:g} m/s", unit="pictures")
+    return shown
 
 
 def _write(path: Path, pictures: Iterator[np.ndarray], rate: float) -> Path:

@@ -27,7 +27,9 @@ _DEEPEST = 20
 _TOO_DEEP = f"nested more than {_DEEPEST} deep: the settings of Exudyn are four deep"
 
 
-def load_settings(source: str | PathLike | Mapping[str, Any] | None) -> exu.SimulationSettings:
+def load_settings(
+    source: str | PathLike[str] | Mapping[str, Any] | None,
+) -> exu.SimulationSettings:
     """Return Exudyn's simulation settings with the entries of a file (or mapping) applied.
 
     Raises SettingsError for a file that cannot be read or is no JSON object, unknown names, wrong

@@ -72,7 +72,7 @@ def print_geometry(name: str, numbers: Mapping[str, Any]) -> None:
 
     def residual(what: str) -> float:
         found = fits["residuals"].items()
-        return max(max(values) for column, values in found if column.endswith(what))
+        return float(max(max(values) for column, values in found if column.endswith(what)))
 
     half_slope = numbers["half_slope_of_radius_difference_at_rest"]
     print(f"\n{name}, gauge {numbers['gauge'] * 1e3:.0f} mm")

@@ -20,7 +20,7 @@ def values_of(text: str) -> list[float]:
             low, high, count = float(parts[0]), float(parts[1]), int(parts[2])
             if not 2 <= count <= MOST_VALUES:
                 raise ValueError
-            found = np.linspace(low, high, count).tolist()
+            found = [float(value) for value in np.linspace(low, high, count)]
         elif len(parts) == 1:
             found = [float(part) for part in text.split(",")]
         else:

@@ -101,7 +101,8 @@ class ChosenVehicle:
             return found
         if not hasattr(found, "vehicle"):
             raise WheelsetError(f"{self.word} is equations alone: it has no bodies on rails")
-        return found.vehicle()
+        described: Vehicle = found.vehicle()
+        return described
 
     def stem(self, script: str) -> str:
         """Name of a file of this vehicle's results: script, vehicle and what is changed of it."""

@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
 from exudyn_wheelset.checking import number
@@ -92,9 +92,9 @@ class PiecewiseGeometry:
     degrees: tuple[int, ...]
     residuals: FloatArray
 
-    def __call__(self, y, derivative: int = 0) -> FloatArray:
+    def __call__(self, y: ArrayLike, derivative: int = 0) -> FloatArray:
         """Values of COLUMNS at y [m], shape (..., 10), or their derivatives over y."""
-        return self.curves(y, nu=derivative)
+        return np.asarray(self.curves(y, nu=derivative))
 
 
 def geometry_columns(geometry: ContactGeometry) -> FloatArray:
@@ -216,7 +216,7 @@ class _Piece(NamedTuple):
 def _residual(miss: FloatArray) -> FloatArray:
     """Largest deviation over points (..., points, 10), with what may lie between the points."""
     between = np.abs(np.diff(miss, axis=-2)).max(axis=-2)
-    return np.abs(miss).max(axis=-2) + between
+    return np.asarray(np.abs(miss).max(axis=-2) + between)
 
 
 def _locate_jumps(search: Search, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -235,7 +235,9 @@ def _locate_jumps(search: Search, low: FloatArray, high: FloatArray) -> FloatArr
     return np.where(jumped, 0.5 * (low + high), np.nan)
 
 
-def _straight_lines(search: Search, y: FloatArray, moved: NDArray[np.intp]):
+def _straight_lines(
+    search: Search, y: FloatArray, moved: NDArray[np.intp]
+) -> tuple[FloatArray, list[_Piece]]:
     """Jumps midway between searched points, straight lines through the points between them."""
     jumps = 0.5 * (y[moved] + y[moved + 1])
     lows = np.concatenate([y[:1], jumps])
@@ -257,7 +259,9 @@ def _straight_lines(search: Search, y: FloatArray, moved: NDArray[np.intp]):
     return jumps, pieces
 
 
-def _polynomials(search: Search, ends: FloatArray, highest_degree: int):
+def _polynomials(
+    search: Search, ends: FloatArray, highest_degree: int
+) -> tuple[FloatArray, list[_Piece]]:
     """Jumps and polynomials (PPoly, degree, residual), residuals at most 1 unless too narrow."""
     fit = np.cos(np.pi * (np.arange(_FIT_POINTS) + 0.5) / _FIT_POINTS)
     places = np.unique(
@@ -342,7 +346,9 @@ def _cubics(search: Search, low: float, high: float, spacing: float) -> _Piece:
         nodes, values = _merged(nodes, values, starts[len(cells) :], search(starts[len(cells) :]))
 
 
-def _merged(x: FloatArray, values: FloatArray, other_x: FloatArray, other_values: FloatArray):
+def _merged(
+    x: FloatArray, values: FloatArray, other_x: FloatArray, other_values: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Two tables over x as one, in order."""
     x = np.concatenate([x, other_x])
     order = np.argsort(x, kind="stable")

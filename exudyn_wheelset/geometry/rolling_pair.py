@@ -131,9 +131,8 @@ def rolling_pair(
 
 def flange_contact(geometry: ContactGeometry) -> Array:
     """True at shifts where a wheel touches at more than 30 degrees, shape of geometry.y."""
-    return (np.abs(geometry.left.angle) > FLANGE_ANGLE) | (
-        np.abs(geometry.right.angle) > FLANGE_ANGLE
-    )
+    angles = np.abs([geometry.left.angle, geometry.right.angle])
+    return np.asarray(np.any(angles > FLANGE_ANGLE, axis=0))
 
 
 def _number(value: float | None) -> float | None:

@@ -28,11 +28,11 @@ from exudyn_wheelset.contact.layout import Axle, side_of
 from exudyn_wheelset.contact.locus import wheel_point
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.errors import ContactError, WheelsetError
+from exudyn_wheelset.geometry.gap import least_gap
 from exudyn_wheelset.geometry.rigid import (
     ContactGeometry,
     ContactSide,
     contact_geometry,
-    least_gap,
 )
 from exudyn_wheelset.spelling import spelt
 

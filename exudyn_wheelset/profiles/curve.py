@@ -116,13 +116,12 @@ def smoothed_points(t: FloatArray, points: FloatArray, rms_distance: float) -> F
         moved[:-2] += columns[0][:, None] * bending
         moved[1:-1] += columns[1][:, None] * bending
         moved[2:] += columns[2][:, None] * bending
-        return weight * moved
+        return np.asarray(weight * moved)
 
     def excess(log_weight: float) -> float:
         moved = displacement(log_weight)
-        return float(np.log(np.sqrt(np.mean(np.sum(moved**2, axis=1))) + 1e-300)) - np.log(
-            rms_distance
-        )
+        rms = np.sqrt(np.mean(np.sum(moved**2, axis=1)))
+        return float(np.log(rms + 1e-300) - np.log(rms_distance))
 
     # lambda has the unit m^3: the cube of a length between a fraction of a step and many spans.
     # It is raised step by step, because the equations lose their digits long before its end.
@@ -199,7 +198,7 @@ def arc_table(curve: BSpline, spacing: float) -> ArcTable:
         half = 0.5 * (end - start)
         t = (0.5 * (start + end))[:, None] + half[:, None] * _GAUSS_POINTS
         speed = np.hypot(*np.moveaxis(derivative(t), -1, 0))
-        return half * (speed @ _GAUSS_WEIGHTS)
+        return np.asarray(half * (speed @ _GAUSS_WEIGHTS))
 
     s_breaks = np.concatenate(([0.0], np.cumsum(lengths(breaks[:-1], breaks[1:]))))
     pieces = max(4, int(np.ceil(s_breaks[-1] / spacing)))

@@ -128,7 +128,7 @@ def _moved(section: Profile, motion: FloatArray) -> FloatArray:
 
 def _turned(points: FloatArray, motion: FloatArray) -> FloatArray:
     sin, cos = np.sin(motion[2]), np.cos(motion[2])
-    return points @ np.array([[cos, sin], [-sin, cos]]) + motion[:2]
+    return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]) + motion[:2])
 
 
 def _along(points: FloatArray, curve: Profile) -> FloatArray:

@@ -211,7 +211,7 @@ def _cross_validated(
         freedom = float(np.trace(cho_solve_banded((factor, True), system.gram)))
         if gamma * freedom >= n:
             continue
-        residual = system.points - system.basis @ coefficients  # type: ignore[operator]
+        residual = system.points - system.basis @ coefficients
         score = float(np.sum(residual**2)) / (n - gamma * freedom) ** 2
         if best is None or score < best[0]:
             best = (score, coefficients, float(exponent))

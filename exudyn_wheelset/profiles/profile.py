@@ -128,7 +128,7 @@ class Profile:
         Raises ProfileError for y outside the profile or not a number.
         """
         shape, t = self._parameter(y)
-        return self._curve(t)[:, 1].reshape(shape)
+        return np.asarray(self._curve(t)[:, 1].reshape(shape))
 
     def slope(self, y: ArrayLike) -> FloatArray:
         """Slope dz/dy of the curve [-] at y [m], any shape.
@@ -137,7 +137,7 @@ class Profile:
         """
         shape, t = self._parameter(y)
         first = self._derivative(t)
-        return (first[:, 1] / first[:, 0]).reshape(shape)
+        return np.asarray((first[:, 1] / first[:, 0]).reshape(shape))
 
     def curvature(self, y: ArrayLike) -> FloatArray:
         """Signed curvature z''/(1 + z'^2)^(3/2) of the curve [1/m] at y [m], any shape.
@@ -147,7 +147,7 @@ class Profile:
         shape, t = self._parameter(y)
         first, second = self._derivative(t), self._second_derivative(t)
         cross = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-        return (cross / np.hypot(first[:, 0], first[:, 1]) ** 3).reshape(shape)
+        return np.asarray((cross / np.hypot(first[:, 0], first[:, 1]) ** 3).reshape(shape))
 
     def arc_table(self, spacing: float = 1e-4) -> ArcTable:
         """The curve as cubics over uniform arc length, see `ArcTable`; kept for the next call.

@@ -17,6 +17,8 @@ Sampled at equal times; SI.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import butter, sosfiltfilt
 from scipy.stats import t as student
@@ -65,7 +67,10 @@ def _forth_and_back(sections: Array, values: Array, rate: float, highest: float)
 
 
 def section_percentiles(
-    distance: Array, values: Array, length: float = 100.0, percentiles: tuple = PERCENTILES
+    distance: Array,
+    values: Array,
+    length: float = 100.0,
+    percentiles: Sequence[float] = PERCENTILES,
 ) -> Array:
     """Percentiles (sections, len(percentiles), ...) of values (m, ...) over sections [m].
 

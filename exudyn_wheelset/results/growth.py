@@ -52,7 +52,7 @@ def measure_growth(t: np.ndarray, y: np.ndarray) -> Growth:
         basis = np.column_stack(
             [swell * np.cos(x[1] * origin), swell * np.sin(x[1] * origin), np.ones_like(origin)]
         )
-        return scaled - basis @ np.linalg.lstsq(basis, scaled, rcond=None)[0]
+        return np.asarray(scaled - basis @ np.linalg.lstsq(basis, scaled, rcond=None)[0])
 
     found = least_squares(rest, [0.0, first], x_scale=[0.1 * first, 0.1 * first])
     return Growth(

@@ -179,7 +179,7 @@ class Motion:
 
     def sum_of_y(self) -> Array:
         """Sum of both rails' lateral forces (m, wheelsets) [N], to the left."""
-        return self.Y.sum(axis=2)
+        return np.asarray(self.Y.sum(axis=2))
 
     def static_loads(self) -> Array:
         """Wheel loads Q0 (wheelsets, 2) [N] at rest: of the record, else the wheelsets' means."""
@@ -208,7 +208,7 @@ class Motion:
         own = self.body(body)
         velocity = np.column_stack([own[f"v{axis} [m/s]"] for axis in "xyz"])
         spin = np.column_stack([own[f"w{axis} [rad/s]"] for axis in "xyz"])
-        return np.gradient(velocity + np.cross(spin, place), self.time, axis=0)
+        return np.asarray(np.gradient(velocity + np.cross(spin, place), self.time, axis=0))
 
     def sliding_mean(
         self, values: Array, length: float = 2.0, step: float = 0.5

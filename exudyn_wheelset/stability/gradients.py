@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.stability.hunting.aligned import FOLD_TOLERANCE
 from exudyn_wheelset.stability.hunting.fold_points import Side, fold_near, prepared
@@ -27,7 +28,7 @@ from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity, 
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.numbers import Number, number_of, vehicle_numbers
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
-from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP, DynamicSystem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -205,7 +206,7 @@ def hopf_gradient(
     def matrix(other: DynamicSystem, at: float = speed) -> Array:
         start = other.carry_over(np.asarray(state), speed, at)
         rest = other.equilibrium(at, start)
-        return np.asarray(other.jacobian(rest, at)) * scales[None, :] / scales[:, None]
+        return np.asarray(np.asarray(other.jacobian(rest, at)) * scales[None, :] / scales[:, None])
 
     values, right = np.linalg.eig(matrix(system))
     place = int(np.argmin(np.abs(values - eigenvalue)))

@@ -38,7 +38,7 @@ VALUE = "value"
 
 @spelt
 def study(
-    function: Callable[[Case], Any],
+    function: Callable[..., Any],
     cases: Any,
     executor: Executor | int | None = None,
     file: str | Path | None = None,

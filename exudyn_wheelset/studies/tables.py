@@ -169,7 +169,11 @@ class Study:
         return write_atomically(path, write)
 
     def plot(
-        self, x: str | None = None, y: str | None = None, by: str | None = None, ax: Any = None
+        self,
+        x: str | None = None,
+        y: str | None = None,
+        by: str | None = None,
+        ax: Axes | None = None,
     ) -> Axes:
         """Draw the result `y` over `x`, a line for each value of `by`; returns the axes.
 
@@ -193,7 +197,11 @@ class Study:
         return ax
 
     def map(
-        self, x: str | None = None, y: str | None = None, value: str | None = None, ax: Any = None
+        self,
+        x: str | None = None,
+        y: str | None = None,
+        value: str | None = None,
+        ax: Axes | None = None,
     ) -> Axes:
         """Draw the result `value` as colour over two names: fields where they are a grid, points
         where not; returns the axes."""
@@ -207,7 +215,7 @@ class Study:
             order = np.lexsort([_ranks(table[x]), _ranks(table[y])])
             field = table[value][order].reshape(len(axes[y]), len(axes[x]))
             places = [_places(axes[name]) for name in (x, y)]
-            drawn = ax.pcolormesh(*places, field, shading="nearest")
+            drawn: Any = ax.pcolormesh(*places, field, shading="nearest")
             for name, place, ticks, label in (
                 (x, places[0], ax.set_xticks, ax.set_xticklabels),
                 (y, places[1], ax.set_yticks, ax.set_yticklabels),
@@ -222,7 +230,7 @@ class Study:
         ax.set_ylabel(y)
         return ax
 
-    def draw_table(self, ax: Any = None, most: int = 30) -> Axes:
+    def draw_table(self, ax: Axes | None = None, most: int = 30) -> Axes:
         """Draw the table itself, at most so many rows; returns the axes."""
         ax = _axes(ax)
         ax.axis("off")
@@ -270,9 +278,9 @@ def _text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _axes(ax: Any) -> Any:
+def _axes(ax: Axes | None) -> Axes:
     if ax is None:
         import matplotlib.pyplot as plt
 
-        ax = plt.subplots()[1]
+        return plt.subplots()[1]
     return ax

@@ -97,7 +97,9 @@ def moved_with_track(
         coordinates[way] = rotation.as_rotvec()
         velocities[way] += rotation.inv().apply(spinning)
     forget(system.wheelsets)
-    return system.layout.reduce(coordinates[None], velocities[None], first_order[None])[0]
+    return np.asarray(
+        system.layout.reduce(coordinates[None], velocities[None], first_order[None])[0]
+    )
 
 
 def _track_beside(frame: TrackFrame, x: float) -> tuple[Array, Array, Array, Array]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NoReturn
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 _FACTS = (
     "name",

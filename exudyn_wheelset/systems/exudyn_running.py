@@ -143,8 +143,8 @@ def sampled(times: Array, values: Array, wanted: Array) -> Array:
     wanted = wanted[wanted <= times[-1] + tolerance]
     rows = np.searchsorted(times, wanted - tolerance)
     if np.all(np.abs(times[rows] - wanted) <= tolerance):
-        return values[rows]
-    return CubicSpline(times, values)(wanted)
+        return np.asarray(values[rows])
+    return np.asarray(CubicSpline(times, values)(wanted))
 
 
 def _state_sensors(mbs: Any, name: str, memory: bool) -> list[tuple[int, int, int]]:

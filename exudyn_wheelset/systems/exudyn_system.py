@@ -18,6 +18,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import refuse_options
 from exudyn_wheelset.coupling.registration import wheelsets_of
 from exudyn_wheelset.coupling.running import QuietExudyn, copied_settings, failure_words
@@ -37,7 +38,7 @@ from exudyn_wheelset.systems.exudyn_wheelsets import (
     rolling_radii,
 )
 from exudyn_wheelset.systems.reduction import expand_state, state_rate
-from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError
+from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
@@ -244,7 +245,7 @@ class ExudynSystem(DynamicSystem):
                 self._inverse_mass = np.linalg.inv(solver.GetSystemMassMatrix())
         except Exception as error:
             raise AnalysisError(f"{self.name}: {failure_words(error)}") from error
-        return force
+        return np.asarray(force)
 
     def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
         """Contact patches with their creep laws at a state, by wheelset and wheel."""
@@ -267,7 +268,7 @@ class ExudynSystem(DynamicSystem):
         if first_order is None:
             first_order = np.zeros(self._order1)
         rows = (np.atleast_2d(values) for values in (coordinates, velocities, first_order))
-        return self.layout.reduce(*rows)[0]
+        return np.asarray(self.layout.reduce(*rows)[0])
 
     def initial_state(self, speed: float) -> Array:
         """State of the model's initial values, with the steady spin and forward velocities."""

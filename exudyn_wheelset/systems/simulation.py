@@ -23,6 +23,7 @@ import exudyn as exu
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number, positive, refuse_options
 from exudyn_wheelset.coupling.registration import WheelsetItems, wheelsets_of
 from exudyn_wheelset.coupling.running import progress_bar
@@ -40,7 +41,7 @@ from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.exudyn_wheelsets import rolling_radii
 from exudyn_wheelset.systems.fitting import check_curves
 from exudyn_wheelset.systems.starts import shifted_state
-from exudyn_wheelset.systems.system import Array, DynamicSystem, SimulationError, as_system
+from exudyn_wheelset.systems.system import DynamicSystem, SimulationError, as_system
 from exudyn_wheelset.systems.vehicle_system import VehicleSystem
 
 Start = (

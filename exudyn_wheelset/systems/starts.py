@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Differences [m] of a wheel's height: a fiftieth of the static penetration.
 _STEP = 2.0e-6

@@ -82,38 +82,38 @@ class SteadyCurve:
     @property
     def y(self) -> Array:
         """Lateral shift (wheelsets,) [m] against the track's centre line at each wheelset."""
-        return self.motion.y[0]
+        return np.asarray(self.motion.y[0])
 
     @property
     def yaw(self) -> Array:
         """Yaw (wheelsets,) [rad] against the track's direction: the angle of attack."""
-        return self.motion.yaw[0]
+        return np.asarray(self.motion.yaw[0])
 
     @property
     def Q(self) -> Array:
         """Vertical forces (wheelsets, 2) [N] of the rails on left and right wheels."""
-        return self.motion.Q[0]
+        return np.asarray(self.motion.Q[0])
 
     @property
     def Y(self) -> Array:
         """Lateral forces (wheelsets, 2) [N] of the rails on the wheels, to the left."""
-        return self.motion.Y[0]
+        return np.asarray(self.motion.Y[0])
 
     def guiding_quotient(self) -> Array:
         """Y/Q (wheelsets, 2), Y the wheel's force on the rail towards its field side."""
-        return self.motion.guiding_quotient()[0]
+        return np.asarray(self.motion.guiding_quotient()[0])
 
     def sum_of_y(self) -> Array:
         """Sum of both rails' lateral forces (wheelsets,) [N], to the left."""
-        return self.motion.sum_of_y()[0]
+        return np.asarray(self.motion.sum_of_y()[0])
 
     def unloading(self, static_loads: Array | None = None) -> Array:
         """(Q0 - Q)/Q0 (wheelsets, 2); Q0 (wheelsets, 2) [N] defaults to the loads at rest."""
-        return self.motion.unloading(static_loads)[0]
+        return np.asarray(self.motion.unloading(static_loads)[0])
 
     def wear_number(self) -> Array:
         """T-gamma (wheelsets, 2) [N]: |F_x xi_x| + |F_y xi_y| + |M_z phi| over all patches."""
-        return self.motion.wear_number()[0]
+        return np.asarray(self.motion.wear_number()[0])
 
     def steering_index(self) -> Array:
         """q_E (wheelsets,): rolling radius difference needed over available (fitting.py)."""

@@ -147,7 +147,7 @@ class DynamicSystem(ABC):
         """Derivative df/dspeed (n,) at a state, by central differences."""
         step = DIFFERENCE_STEP * max(1.0, abs(speed))
         upper = np.array(self.derivative(state, speed + step))
-        return (upper - self.derivative(state, speed - step)) / (2.0 * step)
+        return np.asarray((upper - self.derivative(state, speed - step)) / (2.0 * step))
 
     def equilibrium(self, speed: float, guess: Array | None = None) -> Array:
         """Steady state (n,) at a forward speed [m/s], f(x; speed) = 0, near `guess` (default 0).
@@ -226,7 +226,7 @@ class DynamicSystem(ABC):
                 states[:finite],
                 outcome,
             )
-        return states
+        return np.asarray(states)
 
     def creep_patches(self, state: Array, speed: float) -> tuple[CreepPatch, ...]:
         """Loaded contact patches with their creep laws at a state; empty for equations without."""

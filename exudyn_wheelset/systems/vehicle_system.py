@@ -11,6 +11,7 @@ from typing import Any
 import exudyn as exu
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.derailment import DerailmentWatch
 from exudyn_wheelset.coupling.running import CHECK_INTERVAL
 from exudyn_wheelset.profiles import Profile
@@ -20,7 +21,7 @@ from exudyn_wheelset.systems.constraints import JointedLayout
 from exudyn_wheelset.systems.curving import curve_equilibrium
 from exudyn_wheelset.systems.exudyn_running import DEFAULT_STEP
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.systems.system import Array, SimulationError
+from exudyn_wheelset.systems.system import SimulationError
 from exudyn_wheelset.vehicles import layout as places
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
 from exudyn_wheelset.vehicles.description import Vehicle
@@ -85,7 +86,7 @@ class VehicleSystem(ExudynSystem):
         """Jacobian (n, n) at a state (n,)."""
         if self.compiled is None:
             return super().jacobian(state, speed)
-        return self.jacobians(np.array([state], dtype=float), speed)[0]
+        return np.asarray(self.jacobians(np.array([state], dtype=float), speed)[0])
 
     def jacobians(self, states: Array, speed: float) -> Array:
         """Jacobians (m, n, n) at m states (m, n)."""

@@ -83,7 +83,7 @@ def _toml() -> Any:
         import tomllib
     except ModuleNotFoundError:
         try:
-            import tomli as tomllib  # type: ignore[import-not-found,no-redef]
+            import tomli as tomllib  # type: ignore[no-redef]
         except ModuleNotFoundError as error:
             raise WheelsetError("reading TOML takes Python 3.11, or: pip install tomli") from error
     return tomllib

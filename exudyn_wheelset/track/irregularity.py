@@ -316,7 +316,7 @@ def _count(length: Any, spacing: Any) -> int:
     length = positive("length", length, "m", 1e7)
     spacing = positive("spacing", spacing, "m", length)
     # An even number, so that the waves come in pairs.
-    return 2 * max(1, math.ceil(0.5 * length / spacing - 1e-9))
+    return int(2 * max(1, math.ceil(0.5 * length / spacing - 1e-9)))
 
 
 def _check_distance(distance: Array) -> None:

@@ -283,7 +283,7 @@ class Layout:
 
     def roll(self, station: Array | float) -> Array:
         """Roll [rad] of the track, positive where the left rail is higher."""
-        return np.arcsin(self._functions[1](station))
+        return np.asarray(np.arcsin(self._functions[1](station)))
 
     def gradient_at(self, station: Array | float) -> Array:
         """Rise a metre [-] at stations."""

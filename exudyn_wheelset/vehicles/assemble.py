@@ -166,7 +166,7 @@ class VehicleItems:
     def node(self, name: str) -> int:
         """Node of a body or wheelset by name."""
         items: dict[str, Any] = {**self.bodies, **self.wheelsets}
-        return items[name].node
+        return int(items[name].node)
 
 
 def add_vehicle(

@@ -302,7 +302,8 @@ class Vehicle:
         """
         from exudyn_wheelset.vehicles.paths import replaced
 
-        return replaced(self, path, value)
+        changed: Vehicle = replaced(self, path, value)
+        return changed
 
     def on(self, track: Track) -> Vehicle:
         """The vehicle on another track."""

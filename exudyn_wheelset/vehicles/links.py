@@ -182,9 +182,10 @@ def _shape(link: Link, start: Array, end: Array) -> list[dict[str, Any]]:
 
 
 def _cylinder(start: Array, way: Array, radius: float, colour: list[float]) -> dict[str, Any]:
-    return graphics.Cylinder(
+    made: dict[str, Any] = graphics.Cylinder(
         pAxis=start.tolist(), vAxis=way.tolist(), radius=radius, color=colour, nTiles=16
     )
+    return made
 
 
 def _coil(start: Array, way: Array, radius: float) -> dict[str, Any]:
@@ -197,9 +198,10 @@ def _coil(start: Array, way: Array, radius: float) -> dict[str, Any]:
     angle = 2.0 * np.pi * _WINDINGS * part
     points = start + part * way + radius * (np.cos(angle) * side + np.sin(angle) * other)
     axes = np.gradient(points, axis=0)
-    return graphics.Tube(
+    made: dict[str, Any] = graphics.Tube(
         points=points.tolist(), axes=axes.tolist(), radius=0.19 * radius, color=_SPRING, nTiles=6
     )
+    return made
 
 
 def _leaves(start: Array, end: Array, half: float) -> list[dict[str, Any]]:
@@ -224,7 +226,7 @@ def _bar(start: Array, end: Array, thick: float) -> dict[str, Any]:
     up = np.array([0.0, 0.0, 0.5 * thick])
     corners = np.array([low - up, high - up, high + up, low + up])
     turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-    return graphics.SolidExtrusion(
+    made: dict[str, Any] = graphics.SolidExtrusion(
         vertices=corners[:, [0, 2]].tolist(),
         segments=[[k, (k + 1) % 4] for k in range(4)],
         height=0.09,
@@ -232,3 +234,4 @@ def _bar(start: Array, end: Array, thick: float) -> dict[str, Any]:
         pOff=[0.0, float(start[1]) + 0.045, 0.0],
         color=_LEAF,
     )
+    return made

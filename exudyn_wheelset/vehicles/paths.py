@@ -8,6 +8,8 @@ from typing import Any
 from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.errors import WheelsetError
 
+_Parts = tuple[Any, ...]
+
 _AXES = {"x": 0, "y": 1, "z": 2}
 
 
@@ -25,7 +27,7 @@ def replaced(tree: Any, path: str, value: Any) -> Any:
     return _replaced(tree, steps, value, path)
 
 
-def _moved_along(connections: tuple, before: tuple, after: tuple) -> tuple:
+def _moved_along(connections: _Parts, before: _Parts, after: _Parts) -> _Parts:
     """Connections at an axle whose place or radius has changed, moved along with it."""
     moves = {
         new.name: [b - a for a, b in zip(old.centre, new.centre, strict=True)]
@@ -89,7 +91,7 @@ def _replaced(node: Any, steps: list[str], value: Any, path: str) -> Any:
     return dataclasses.replace(node, **{step: changed})  # type: ignore[type-var]
 
 
-def _in_named(node: tuple, step: str, rest: list[str], value: Any, path: str) -> tuple:
+def _in_named(node: _Parts, step: str, rest: list[str], value: Any, path: str) -> _Parts:
     """The entries of a tuple that a name means, changed."""
     names = [getattr(entry, "name", getattr(entry, "body", "")) for entry in node]
     chosen = [name == step or step == "*" for name in names]

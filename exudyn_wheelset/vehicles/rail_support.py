@@ -9,6 +9,7 @@ like loads shift and roll vanish and two are left.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,7 +117,7 @@ def rest_on_rails(
 
     def left(trial: Array) -> Array:
         found, _ = rails(trial)
-        return (found[[2, 3, 1, 4]] - asked) / scale
+        return np.asarray((found[[2, 3, 1, 4]] - asked) / scale)
 
     free = [0, 1, 2, 3]
     lopsided = abs(wrench[3] - tipping) > 1e-9 * weight * half or abs(wrench[1]) > 1e-9 * weight
@@ -134,7 +135,7 @@ def rest_on_rails(
     return AxleRest(height, shift, roll, radius, wrench, wheel_loads)
 
 
-def _newton(left, pose: Array, free: list[int]) -> Array | None:
+def _newton(left: Callable[[Array], Array], pose: Array, free: list[int]) -> Array | None:
     """Root over the entries `free` of a pose, None where there is none nearby."""
     pose = pose.copy()
     if not free:

@@ -98,7 +98,7 @@ def accelerations(vehicle: Vehicle, rest: Rest) -> Array:
     forces = StaticForces(vehicle, rest.struts, rest.preloads, rest.centres, rest.drawn)(rest.pose)
     forces[heaviest_part(vehicle), 0] += rest.pull
     _add_rails(vehicle, forces, rest.axles)
-    return forces / inertias_of(vehicle)
+    return np.asarray(forces / inertias_of(vehicle))
 
 
 def heaviest_part(vehicle: Vehicle) -> int:
@@ -169,7 +169,7 @@ class StaticForces:
         for lever, stiffness, preload in self._linear:
             strain = lever @ (pose - self._drawn).ravel()
             forces += (lever.T @ (preload - stiffness @ strain)).reshape(-1, 6)
-        return forces
+        return np.asarray(forces)
 
 
 def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
@@ -204,7 +204,7 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
         forces = forces_of(trial)
         forces[pulled, 0] += weight * unknown[-1]
         _add_rails(vehicle, forces, axles)
-        return (forces / inertias).ravel()
+        return np.asarray((forces / inertias).ravel())
 
     unknown = np.append(rest.pose.ravel(), rest.pull / weight)
     steps = np.full(unknown.size, 1e-7)

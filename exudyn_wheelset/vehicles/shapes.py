@@ -97,11 +97,12 @@ class _Pencil:
     def brick(self, low: Sequence[float], high: Sequence[float], colour: Colour) -> dict[str, Any]:
         """A brick between two corners."""
         corners = np.array([low, high]) - self._centre
-        return graphics.Brick(
+        made: dict[str, Any] = graphics.Brick(
             centerPoint=corners.mean(axis=0).tolist(),
             size=np.abs(corners[1] - corners[0]).tolist(),
             color=colour,
         )
+        return made
 
     def along_x(self, outline: Any, ends: Sequence[float], colour: Colour) -> dict[str, Any]:
         """An outline (n, 2) in y and z, counter-clockwise seen from ahead, from x to x."""
@@ -129,19 +130,20 @@ class _Pencil:
         self, start: Sequence[float], along: Sequence[float], radius: float, colour: Colour
     ) -> dict[str, Any]:
         """A cylinder from a place along a vector."""
-        return graphics.Cylinder(
+        made: dict[str, Any] = graphics.Cylinder(
             pAxis=(np.array(start) - self._centre).tolist(),
             vAxis=list(along),
             radius=radius,
             color=colour,
             nTiles=24,
         )
+        return made
 
     def _extruded(
         self, outline: Array, height: float, turn: Any, start: list[float], colour: Colour
     ) -> dict[str, Any]:
         count = len(outline)
-        return graphics.SolidExtrusion(
+        made: dict[str, Any] = graphics.SolidExtrusion(
             vertices=outline.tolist(),
             segments=[[k, (k + 1) % count] for k in range(count)],
             height=height,
@@ -149,6 +151,7 @@ class _Pencil:
             pOff=start,
             color=colour,
         )
+        return made
 
 
 def _car_body(pencil: _Pencil, vehicle: Vehicle, reach: Reach, body: Body) -> list[dict[str, Any]]:

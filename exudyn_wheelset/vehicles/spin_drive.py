@@ -38,11 +38,10 @@ def create_spin_drive(
 
     # Exudyn's stub files know their own callback classes only.
     torque: Any = torque_of
-    return mbs.AddLoad(
-        LoadTorqueVector(
-            name=f"{items.name} spin drive",
-            markerNumber=items.marker,
-            bodyFixed=True,
-            loadVectorUserFunction=torque,
-        )
+    load = LoadTorqueVector(
+        name=f"{items.name} spin drive",
+        markerNumber=items.marker,
+        bodyFixed=True,
+        loadVectorUserFunction=torque,
     )
+    return int(mbs.AddLoad(load))

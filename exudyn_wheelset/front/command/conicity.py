@@ -33,7 +33,7 @@ EXAMPLES = (
 )
 SETTINGS = False
 
-ProfileSource = Profile | str | PathLike
+ProfileSource = Profile | str | PathLike[str]
 
 TABLE_AMPLITUDES_MM = tuple(float(value) for value in range(1, 11))
 # Contact geometry does not ask for mass and inertia; a description of a wheelset does.
@@ -57,7 +57,7 @@ def run(
     method: str = "integration",
     shift: str = "rail",
     gauge_depth: float = 0.014,
-    out: str | PathLike | None = None,
+    out: str | PathLike[str] | None = None,
 ) -> dict[str, Any]:
     """Equivalent conicity by amplitude, position of rest and flange contact, as a dictionary.
 

@@ -81,7 +81,8 @@ def run(
         "laws": {},
     }
     for word in laws:
-        forces = creep_force(word.law, *creepages, *patch, **word.parameters)
+        along, across, turning = creepages
+        forces = creep_force(word.law, along, across, turning, *patch, **word.parameters)
         numbers["laws"][str(word)] = {
             name: np.asarray(values).tolist()
             for name, values in zip(("force_x", "force_y", "moment"), forces, strict=True)

@@ -60,7 +60,7 @@ def pair(
     radius: float = 0.46,
     tape_half_distance: float = 0.75,
     half_range: float = 0.008,
-    **track: float,
+    **track: Any,
 ) -> Pair:
     """Wheel and rail by name or file; track: gauge, gauge_depth, inclination. Lengths [m]."""
     if not 1.0e-4 <= half_range <= 0.05:

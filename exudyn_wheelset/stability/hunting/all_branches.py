@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch
@@ -28,7 +29,7 @@ from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.stability.linear.modes import is_lateral
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # An orbit lies on a branch whose amplitudes there are within this share of its own.
 SAME = 0.02

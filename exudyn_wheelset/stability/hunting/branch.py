@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from scipy.optimize import brentq
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import NamedColumns
@@ -23,7 +24,6 @@ from exudyn_wheelset.results.records import read_record, write_record
 from exudyn_wheelset.stability.hunting.branch_plot import draw_branch
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.systems.source import Source
-from exudyn_wheelset.systems.system import Array
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

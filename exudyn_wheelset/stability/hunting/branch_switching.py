@@ -19,20 +19,22 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.records import describe
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
-from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings, follow
+from exudyn_wheelset.stability.hunting.continuation import follow
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit
 from exudyn_wheelset.stability.hunting.folds import parts
 from exudyn_wheelset.stability.hunting.limit_cycles import gather
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
 from exudyn_wheelset.stability.hunting.orbit_kernels import weighed
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Sizes of (1) tried, as shares of the orbit's size.
 STEPS = (0.1, 0.05, 0.2, 0.02)

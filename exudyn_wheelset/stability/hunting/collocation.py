@@ -30,6 +30,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.stability.hunting.condensed import (
     Condensed,
@@ -40,7 +41,7 @@ from exudyn_wheelset.stability.hunting.condensed import (
 from exudyn_wheelset.stability.hunting.floquet import Multipliers, floquet_multipliers
 from exudyn_wheelset.stability.hunting.orbit import Basis, Orbit, OrbitError, basis_of, windows_of
 from exudyn_wheelset.stability.hunting.orbit_kernels import at_nodes, condense_intervals, weighed
-from exudyn_wheelset.systems.system import DIFFERENCE_STEP, Array, DynamicSystem
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP, DynamicSystem
 
 # One-sided difference step in scales, ten nanometres for a wheelset: above what a contact search
 # resolves, below what bends the slope of a smooth f. Defects are exact, so orbits and folds do not
@@ -150,7 +151,7 @@ class Collocation:
         basis = self.basis(orbit.degree)
         slopes = at_nodes(orbit.states / self.scales, basis.slopes)
         widths = np.diff(orbit.mesh)[:, None, None]
-        return slopes - widths * orbit.duration * rates.reshape(slopes.shape)
+        return np.asarray(slopes - widths * orbit.duration * rates.reshape(slopes.shape))
 
     def condense(self, orbit: Orbit) -> Condensed:
         """Newton's equations at the orbit: one Jacobian of f at every node."""
@@ -182,7 +183,7 @@ class Collocation:
         ahead = np.array([carry(state, speed, speed + step) for state in states])
         change = self._rates(ahead, speed + step) - rates
         carried = (ahead - states) / self.scales
-        return (change - np.einsum("kij,kj->ki", by_state, carried)) / step
+        return np.asarray((change - np.einsum("kij,kj->ki", by_state, carried)) / step)
 
     def assemble(self, orbit: Orbit, gradients: Gradients) -> Condensed:
         """Newton's equations from gradients given at the nodes of the orbit.
@@ -228,7 +229,7 @@ class Collocation:
             raise OrbitError(
                 f"the Jacobian is not finite on the orbit at {speed:.4f} m/s", contact_lost=True
             )
-        return jacobians * (self.scales[None, None, :] / self.scales[None, :, None])
+        return np.asarray(jacobians * (self.scales[None, None, :] / self.scales[None, :, None]))
 
     def _forward_differences(self, states: Array, speed: float, rates: Array) -> Array:
         self.jacobians += len(states)
@@ -258,4 +259,4 @@ class Collocation:
                 f"the equations give no finite value on the orbit at {speed:.4f} m/s",
                 contact_lost=True,
             )
-        return rates
+        return np.asarray(rates)

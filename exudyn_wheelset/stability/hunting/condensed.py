@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.orbit import OrbitError
 from exudyn_wheelset.stability.hunting.orbit_kernels import (
     bordered_matrix,
     solve_condensed,
     speed_functional,
 )
-from exudyn_wheelset.systems.system import Array
 
 # Singular values below this part of the largest one are those of states that the equations leave
 # free.
@@ -78,7 +78,7 @@ class Gradients:
 
         def moved(values: Array) -> Array:
             share = weight.reshape(-1, *[1] * (values.ndim - 1))
-            return (1.0 - share) * values[right - 1] + share * values[right]
+            return np.asarray((1.0 - share) * values[right - 1] + share * values[right])
 
         return Gradients(wanted, moved(self.rates), moved(self.by_state), moved(self.by_speed))
 
@@ -109,7 +109,7 @@ class Condensed:
         """
         size = self.points.shape[2]
         matrix = self.closure[:, None] * self.points[-1, -1, :, :size]
-        return matrix if np.all(self.closure > 0.0) else matrix @ matrix
+        return np.asarray(matrix if np.all(self.closure > 0.0) else matrix @ matrix)
 
     def solve(self, defects: Array, rows: list[Functional], values: list[float]) -> Direction:
         """Correction that removes the defects (N, m, n) and gives both rows their values.

@@ -19,10 +19,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.collocation import FORWARD_STEP, Collocation
 from exudyn_wheelset.stability.hunting.condensed import Direction, Gradients
 from exudyn_wheelset.stability.hunting.orbit import Orbit
-from exudyn_wheelset.systems.system import Array
 
 # An entry that changes between two nodes by this part of its range is looked into.
 SUSPECT = 0.3
@@ -120,7 +120,7 @@ def _halved(
     # Beside the corner by more than what the differences smear.
     beside = APART * (right - left)
     left, right = np.maximum(middle - beside, ends[0]), np.minimum(middle + beside, ends[1])
-    return middle[np.abs(entries(right) - entries(left)) > LEFT * whole]
+    return np.asarray(middle[np.abs(entries(right) - entries(left)) > LEFT * whole])
 
 
 def mesh_on(base: Array, corners: Array) -> Array:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
-from exudyn_wheelset.systems.system import Array
 
 # Below this share of Newton's step, a step is taken as it is.
 SMALLEST_FACTOR = 0.1

@@ -26,18 +26,19 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import finite_array, number, positive
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
 from exudyn_wheelset.spelling import spelt
-from exudyn_wheelset.stability.hunting.branch import NamedColumns
 from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # A fall to less than a third, to less than a tenth of the scale (0.1 mm), is the end of hunting:
 # wheelsets on S1002 have a ripple of 0.05 mm where nothing else lives.
@@ -363,7 +364,7 @@ def mode_disturbance(system: DynamicSystem, speed: float, size: float) -> Array:
     relative = np.abs(mode / system.scales)[displacements]
     leading = displacements[int(np.argmax(relative))]
     mode = mode * (system.scales[leading] / mode[leading])
-    return linear.state + size * mode.real
+    return np.asarray(linear.state + size * mode.real)
 
 
 def _as_stored(values: Any) -> Any:

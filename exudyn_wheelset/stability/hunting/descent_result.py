@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
-from exudyn_wheelset.stability.hunting.branch import NamedColumns
-from exudyn_wheelset.systems.system import Array
 
 KIND = "quasi-static descent"
 

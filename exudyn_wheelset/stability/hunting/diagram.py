@@ -17,17 +17,19 @@ from typing import Any, Literal
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Branch
-from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
-from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
+from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
+from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Ends of a diagram, in Hopf speeds.
 RANGE = (0.5, 1.3)

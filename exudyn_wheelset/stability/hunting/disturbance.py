@@ -20,6 +20,7 @@ from typing import Any, Literal
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
@@ -30,7 +31,7 @@ from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 KIND = "disturbance runs"
 Fate = Literal["hunts", "dies out", "lost contact"]

@@ -26,8 +26,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.linear.neutral import holds
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Multipliers this near to 1 may be the trivial one, or one of two beside a fold.
 NEAR_ONE = 0.5
@@ -107,4 +108,4 @@ def _neutral(values: Array, vectors: Array, system: DynamicSystem) -> Array:
         return held
     sizes = np.linalg.norm(vectors, axis=0)
     share = np.linalg.norm(vectors[rows], axis=0) / np.maximum(sizes, 1e-300)
-    return held | ((share > NEUTRAL_SHARE) & (np.abs(values - 1.0) < NEUTRAL_DISTANCE))
+    return np.asarray(held | ((share > NEUTRAL_SHARE) & (np.abs(values - 1.0) < NEUTRAL_DISTANCE)))

@@ -15,6 +15,7 @@ from typing import Literal
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction
@@ -23,7 +24,7 @@ from exudyn_wheelset.stability.hunting.corrector import solve_orbit
 from exudyn_wheelset.stability.hunting.folds import base_at, parts
 from exudyn_wheelset.stability.hunting.orbit import Orbit, balanced_mesh
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_orbit
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Corners count as met when they lie this near to their mesh points, in phase.
 MET = 1e-5

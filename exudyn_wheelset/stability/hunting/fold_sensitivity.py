@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.fold_points import Slope
-from exudyn_wheelset.systems.system import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.condensed import Condensed, Direction, Functional
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import Solution, solve_orbit
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
-from exudyn_wheelset.systems.system import Array
 
 
 @dataclass(frozen=True, eq=False)

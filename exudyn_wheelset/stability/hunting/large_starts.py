@@ -20,13 +20,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import linearised
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Flange clearances are 5 to 12 mm; a blow of 0.5 m/s set off the S1002 wheelset's flange cycle
 # (docs/hunting.md), and 1 m/s carries a wheelset across the clearance in a tenth of its period.

@@ -17,19 +17,18 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number, numbers
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.records import describe
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.aligned import Point
-from exudyn_wheelset.stability.hunting.branch import Branch, Fold, NamedColumns, StabilityChange
+from exudyn_wheelset.stability.hunting.branch import Branch, Fold, StabilityChange
 from exudyn_wheelset.stability.hunting.collocation import Collocation
-from exudyn_wheelset.stability.hunting.continuation import (
-    ContinuationSettings,
-    follow,
-    hopf_start,
-)
+from exudyn_wheelset.stability.hunting.continuation import follow, hopf_start
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.measured_growth import checked
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
@@ -39,7 +38,7 @@ from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of
 from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 
 @spelt

@@ -29,8 +29,9 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.branch import Branch
-from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
-from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
+from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
+from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
+from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion

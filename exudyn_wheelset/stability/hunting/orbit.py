@@ -17,10 +17,10 @@ from math import comb
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.stability.hunting.orbit_kernels import at_nodes, half_ranges
-from exudyn_wheelset.systems.system import Array
 
 DEGREE = 4
 INTERVALS = 30
@@ -156,7 +156,9 @@ class Orbit:
         interval = np.clip(interval, 0, len(self.mesh) - 2)
         local = (fractions - self.mesh[interval]) / np.diff(self.mesh)[interval]
         weights = local[:, None] ** np.arange(self.degree + 1) @ basis_of(self.degree).coefficients
-        return np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
+        return np.asarray(
+            np.einsum("kj,kjn->kn", weights, windows_of(self.states, self.degree)[interval])
+        )
 
 
 def orbit_from_samples(
@@ -205,10 +207,10 @@ def balanced_mesh(
     wanted = np.linspace(0.0, 1.0, (intervals or len(widths)) + 1)
     balanced = np.interp(wanted, share / share[-1], mesh)
     balanced[0], balanced[-1] = 0.0, 1.0
-    return balanced
+    return np.asarray(balanced)
 
 
 def windows_of(states: Array, degree: int) -> Array:
     """States (N, m + 1, n) of each interval from the chain (N m + 1, n)."""
     first = np.arange(0, len(states) - 1, degree)
-    return states[first[:, None] + np.arange(degree + 1)]
+    return np.asarray(states[first[:, None] + np.arange(degree + 1)])

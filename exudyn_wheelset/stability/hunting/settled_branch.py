@@ -13,13 +13,14 @@ from collections.abc import Callable
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.stability.hunting.branch import Branch, Fold
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settled_orbit import orbit_of, settled_motion
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Steps to either end of the range of speeds, and the width of a jump's bracket relative to the
 # speed: beside the fold a motion lingers for hundreds of cycles.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.collocation import Collocation
@@ -16,7 +17,7 @@ from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS, Orbit, orbit_from_samples
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 
 def orbit_near(

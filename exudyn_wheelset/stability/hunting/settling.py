@@ -30,9 +30,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.endings import Ending
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 SAMPLES = 64
 TREND = 8

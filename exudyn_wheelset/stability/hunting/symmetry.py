@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.stability.hunting.orbit import Orbit
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Relative to the largest: components of a mode or deviations of f below it are rounding.
 NEGLIGIBLE = 1e-6

@@ -18,7 +18,7 @@ import numpy as np
 
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.stability.hunting.branch import Branch
-from exudyn_wheelset.stability.hunting.descent import Descent
+from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint

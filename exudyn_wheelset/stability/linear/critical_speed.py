@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.linear.crossings import (
@@ -33,7 +34,6 @@ from exudyn_wheelset.stability.linear.spectra import (
     Spectra,
 )
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array
 
 # A window of instability between two speeds of the scan is looked for where the peak of the least
 # damping through three speeds comes this near to zero, as a share of the damping beside it.

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from scipy.optimize import brentq
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
@@ -36,7 +37,6 @@ from exudyn_wheelset.stability.linear.spectra import (
 )
 from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.source import Source
-from exudyn_wheelset.systems.system import Array
 
 if TYPE_CHECKING:
     from exudyn_wheelset.stability.gradients import Gradient

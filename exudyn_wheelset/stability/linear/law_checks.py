@@ -31,11 +31,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.creep import CREEP_LAWS
 from exudyn_wheelset.creep.slopes import creep_slopes
 from exudyn_wheelset.errors import WheelsetWarning
 from exudyn_wheelset.stability.linear.amplitudes import farthest_off
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 ADDITIVITY_LIMIT = 0.02
 SLOPE_LIMIT = 0.10
@@ -185,7 +186,7 @@ def additivity(system: DynamicSystem, state: Array, speed: float, mode: Array) -
             (np.array(system.derivative(state + step * direction, speed)) - at_rest) / step
             for step in (SMALL, 0.5 * SMALL)
         ]
-        return (2.0 * changes[1] - changes[0]) / scales
+        return np.asarray((2.0 * changes[1] - changes[0]) / scales)
 
     worst = 0.0
     for phase in np.pi * np.arange(PHASES) / PHASES:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
@@ -30,7 +31,7 @@ from exudyn_wheelset.stability.linear.modes import (
 from exudyn_wheelset.stability.linear.neutral import neutral_name, separated
 from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, oscillates
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 
 @brief

@@ -23,7 +23,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Between the hunting modes (above 0.5) and the lateral modes of bodies on springs (below 0.15)
 # of the wheelsets, trucks and cars in the tests.

@@ -55,5 +55,5 @@ def neutral_name(system: DynamicSystem, value: complex, mode: Array) -> str | No
     sizes = np.abs(mode[strained])
     if np.sort(sizes)[-2:-1].sum() > _ALONE * sizes.max():
         return None
-    name = system.state_names[strained[int(np.argmax(sizes))]]
+    name: str = system.state_names[strained[int(np.argmax(sizes))]]
     return _NEUTRAL + name.rpartition(": ")[2].removesuffix(_HOLD)

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.results.growth import growth_beside
@@ -23,7 +24,6 @@ from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.linearisation import Linearisation, linearise
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.simulation import simulate
-from exudyn_wheelset.systems.system import Array
 
 # A growth rate is measured up to this multiple of the start and this amplitude [m]: beyond, creep
 # saturation starts to show.
@@ -81,7 +81,7 @@ def mode_start(system: ExudynSystem, linear: Linearisation, row: int, amplitude:
     mode = linear.eigenvectors[:, row]
     lateral = [k for k, name in enumerate(system.state_names) if name.split(": ")[-1] == "y [m]"]
     largest = lateral[int(np.argmax(np.abs(mode[lateral])))]
-    return linear.state + (mode * (amplitude / mode[largest])).real
+    return np.asarray(linear.state + (mode * (amplitude / mode[largest])).real)
 
 
 def nearest_row(linear: Linearisation, critical: CriticalPoint) -> int:

@@ -10,9 +10,10 @@ from typing import Literal
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.stability.linear.modes import is_lateral
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # A pair counts as unstable above this fraction of its |eigenvalue|: undamped modes (a spring
 # without damper) have a real part that is rounding of the differences, of either sign.
@@ -113,12 +114,12 @@ def oscillates(values: Array) -> Array:
 
 def oscillatory_pairs(values: Array) -> Array:
     """One root of each oscillatory pair, the one with positive imaginary part."""
-    return values[oscillates(values)]
+    return np.asarray(values[oscillates(values)])
 
 
 def real_roots(values: Array) -> Array:
     """Real parts of the roots that do not oscillate."""
-    return values.real[np.abs(values.imag) <= 2.0 * np.pi * LOWEST_FREQUENCY]
+    return np.asarray(values.real[np.abs(values.imag) <= 2.0 * np.pi * LOWEST_FREQUENCY])
 
 
 def check_finite(system: DynamicSystem, jacobian: Array, speed: float) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from scipy.stats import beta, norm
 from tqdm import tqdm
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import finite_array, number, numbers, positive
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
@@ -29,7 +30,7 @@ from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.stability.subject import as_system
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

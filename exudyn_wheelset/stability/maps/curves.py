@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import NamedColumns
-from exudyn_wheelset.systems.system import Array
 
 STRAIGHT, DISTURBED, HUNTS = "always runs straight", "hunts if disturbed", "hunts"
 

@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import (
     Slope,
@@ -24,7 +25,6 @@ from exudyn_wheelset.stability.hunting.fold_points import (
 )
 from exudyn_wheelset.stability.hunting.orbit import OrbitError
 from exudyn_wheelset.stability.maps.tracing import Family
-from exudyn_wheelset.systems.system import Array
 
 # Of the fold's speed [m/s].
 TOLERANCE = 1e-3

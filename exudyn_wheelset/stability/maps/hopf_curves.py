@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.linear.spectra import check_finite, oscillates
 from exudyn_wheelset.stability.maps.tracing import Family
-from exudyn_wheelset.systems.system import Array
 
 # [m/s]
 TOLERANCE = 1e-4

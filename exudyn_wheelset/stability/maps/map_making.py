@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.stability.hunting.branch import Fold
@@ -24,7 +25,7 @@ from exudyn_wheelset.stability.maps.fold_curves import FoldPlace, FoldWorld
 from exudyn_wheelset.stability.maps.hopf_curves import HopfPlace, HopfWorld
 from exudyn_wheelset.stability.maps.tracing import Family, Tracer
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Speeds looked at by default, in Hopf speeds.
 RANGE = (0.4, 1.3)

@@ -15,8 +15,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
+from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.systems.system import Array
 
 # Below this share of the heading along w, corrections are made in w.
 ALONG = 0.5

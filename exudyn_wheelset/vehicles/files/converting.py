@@ -121,6 +121,11 @@ def _is_nothing(value: Any) -> bool:
 
 
 @functools.lru_cache(maxsize=1)
+def _is_tuple(kind: Any) -> bool:
+    origin: Any = get_origin(kind)
+    return origin is tuple
+
+
 def _converter() -> Any:
     from cattrs import Converter
 
@@ -130,9 +135,7 @@ def _converter() -> Any:
     for kind in MADE:
         made.register_structure_hook(kind, lambda value, _: value)
     made.register_structure_hook_func(lambda kind: kind is Any, lambda value, _: frozen(value))
-    made.register_structure_hook_func(
-        lambda kind: get_origin(kind) is tuple, functools.partial(_row, made)
-    )
+    made.register_structure_hook_func(_is_tuple, functools.partial(_row, made))
     return made
 
 

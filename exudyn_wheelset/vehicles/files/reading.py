@@ -231,7 +231,8 @@ class _Reader:
                     raise EntryError(f"{key}: {error}", key) from error
         if "sections" in made:
             made["sections"] = tuple(self._section(one) for one in made["sections"])
-        return to_object(Track, made)
+        track: Track = to_object(Track, made)
+        return track
 
     def _section(self, table: Any) -> RailSection:
         if not isinstance(table, dict):

@@ -127,7 +127,7 @@ def _is_shipped(name: str) -> bool:
 
 def _track_table(track: Track, profile_key: Callable[[Profile], str]) -> dict[str, Any]:
     plain = replace(track, layout=None, irregularity=None)
-    table = to_table(plain, profile_key)
+    table: dict[str, Any] = to_table(plain, profile_key)
     if track.layout is not None:
         table["layout"] = layout_table(track.layout)
     if track.irregularity is not None:
