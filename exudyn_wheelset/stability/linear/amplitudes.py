@@ -22,7 +22,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from exudyn_wheelset.systems.system import Array, DynamicSystem
+from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Amplitudes [m] of the wheelset that moves most: a tenth of the least that matters on a track, and
 # what the finish of a rail leaves.
@@ -90,4 +91,4 @@ def _left_vector(matrix: Array, mode: Array) -> Array:
     product = left @ mode
     if abs(product) < 1e-6 * np.linalg.norm(mode):
         return np.full(len(mode), np.nan)
-    return left / product
+    return np.asarray(left / product)
