@@ -24,7 +24,7 @@ from numba import float64, int64, types, void
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from exudyn_wheelset.compilation import SWITCHED_OFF, keep
+from exudyn_wheelset.compilation import OPTIONS, SWITCHED_OFF, keep
 from exudyn_wheelset.whole_code import Callback
 
 
@@ -59,7 +59,7 @@ class Apart:
             made = Callback(
                 self._function,
                 (self._signature.args, self._signature.return_type),
-                {"error_model": "numpy", "boundscheck": None},
+                dict(OPTIONS),
             )
             keep(made, self._function)
             made.compile()

@@ -45,6 +45,14 @@ _COMPILER_SETTINGS = ("BOUNDSCHECK", "OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "
 # loop that reads one by computed places and writes another is not vectorised. numba makes it for
 # its own loops only, and has no option for it.
 CPUTargetOptions.noalias = _mapping("noalias")
+# All are said: what a function leaves out numba takes from whoever calls it first, and its bits
+# would depend on what the process compiled before.
+OPTIONS = {
+    "boundscheck": None,
+    "error_model": "numpy",
+    "fastmath": False,
+    "forceinline": False,
+}
 # By NUMBA_DISABLE_JIT: kernels then are the plain functions.
 SWITCHED_OFF = bool(getattr(config, "DISABLE_JIT", False))
 _log = logging.getLogger(__name__)
@@ -201,7 +209,7 @@ def compiled(function: Any = None, **options: Any) -> Any:
     """Compile a function of this package with numba, division by zero as in numpy, and keep it.
 
     Used bare or with options of numba.njit; inline="always" is left to LLVM, which is spared the
-    typing of a copy at every call, and with it the function has its own fastmath, not its caller's.
+    typing of a copy at every call. A function has its own fastmath, not its caller's.
     """
     if function is None:
         return lambda function: compiled(function, **options)
@@ -209,8 +217,7 @@ def compiled(function: Any = None, **options: Any) -> Any:
         return function
     if options.pop("inline", "never") == "always":
         options["forceinline"] = True
-    given = {"nopython": True, "boundscheck": None, "error_model": "numpy", **options}
-    kernel = Kernel(function, targetoptions=given)
+    kernel = Kernel(function, targetoptions={"nopython": True, **OPTIONS, **options})
     keep(kernel, function)
     return kernel
 

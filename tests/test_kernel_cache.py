@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
+
 PACKAGE = Path(__file__).parents[1] / "exudyn_wheelset"
 PROGRAM = """
 import logging, sys
@@ -75,3 +77,17 @@ def test_without_a_folder_kernels_are_compiled_in_memory(copy, tmp_path):
     found, said = force(copy, tmp_path / "file" / "cache")
     assert found < 0.0
     assert "compiled at every start" in said
+
+
+def test_a_function_has_its_own_arithmetic_whoever_calls_it_first():
+    """(1 + e)^2 - (1 + 2 e) is e^2, but 0 where the square is rounded before the difference."""
+
+    def square_less(a, b):
+        return a * a - b
+
+    inner = compiled(square_less)
+    fused = compiled(fastmath=AS_REAL_NUMBERS)(lambda a, b: inner(a, b))
+    plain = compiled(lambda a, b: inner(a, b))
+    e = 2.0**-27
+    fused(1.0 + e, 1.0 + 2.0 * e)
+    assert plain(1.0 + e, 1.0 + 2.0 * e) == 0.0
