@@ -363,3 +363,35 @@ def test_halving_the_step_leaves_what_is_below_20_hz():
     for name in ("Q", "Y"):
         slow, finer = (low_pass(motion.time, getattr(motion, name)) for motion in (one, half))
         assert np.abs(slow - finer).max() < 0.01 * np.ptp(finer)
+
+
+@pytest.mark.parametrize("normal", ["hertz", "energy"])
+def test_a_curve_of_150_m_with_a_wider_gauge_balances(normal):
+    """With 15 mm more, as such curves are laid, the trailing wheelsets come off their flanges."""
+    coach = COACH.replace("contact.normal", normal)
+    curve = steady_curve(coach, 150.0, 0.1, 10.0, widening=0.015)
+    assert curve.system.unsteadiness == 0.0
+    assert curve.y[0] < -6e-3 and curve.y[1] > 14e-3
+    layout = Layout([Curve(150.0, 100.0, 0.1, widening=0.015)])
+    motion = simulate(coach.on(replace(coach.track, layout=layout)), 10.0, 1.0, initial=curve.state)
+    np.testing.assert_allclose(motion.y[-1], curve.y, atol=1e-5)
+    np.testing.assert_allclose(motion.Q[-1], curve.Q, rtol=2e-3)
+
+
+def test_friction_stays_where_a_drive_into_the_curve_leaves_it():
+    """Faces that rub hold whatever they have come to; what is given must not move from there."""
+    wagon = catalogue.vehicle("two_axle_wagon")
+    curve = steady_curve(wagon, 250.0, 0.08, 12.0)
+    layout = Layout([Curve(250.0, 100.0, 0.08)])
+    motion = simulate(wagon.on(replace(wagon.track, layout=layout)), 12.0, 3.0, initial=curve.state)
+    np.testing.assert_allclose(motion.y[-1], curve.y, atol=1e-5)
+    np.testing.assert_allclose(motion.Q[-1], curve.Q, rtol=2e-3)
+
+
+@pytest.mark.parametrize("law", ["polach", "fastsim"])
+def test_the_work_of_creep_forces_is_the_wear_numbers_times_the_way(law):
+    """Each creep force opposes its creepage, so both sums are one, but for spin beside creepage."""
+    curve = steady_curve(COACH.replace("contact.creep", law), 300.0, 0.1, 15.0)
+    patches = [patch for wheel in curve.patches.values() for patch in wheel]
+    work = -sum(one.fx * one.creep_x + one.fy * one.creep_y + one.mz * one.spin for one in patches)
+    assert curve.wear_number().sum() == pytest.approx(work, rel=5e-3)

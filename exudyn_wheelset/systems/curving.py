@@ -43,7 +43,7 @@ _LEAPS, _SETTLING_RUNS = (0.02, 0.05, 0.1, 0.2, 0.4), 15
 # A motion that stays within this [m, rad] for a second is steady but for a jump of forces.
 _STEADY, _SURELY_STEADY = 2.0e-4, 1.0e-5
 # Seconds in a curve after which a vehicle that was driven in is steady.
-_DRIVE = 12.0
+DRIVE = 12.0
 # Way [m] for the rate at which the track changes beside a frame.
 _DIFFERENCE = 1.0e-3
 
@@ -239,14 +239,15 @@ def chatter_of(system: VehicleSystem, samples: Array) -> float:
 
 
 def driven_in(
-    system: VehicleSystem, arriving: VehicleSystem, speed: float, way: float
+    system: VehicleSystem, arriving: VehicleSystem, speed: float, way: float, drive: float = DRIVE
 ) -> tuple[Array, float]:
     """Steady state (n,) of a system in a curve, and its chatter, by driving into the curve.
 
     arriving: the same vehicle on a track that leads over a transition into that curve, which it has
-    reached after the way [m]. Raises AnalysisError with how the drive ended.
+    reached after the way [m]; drive [s]: how long it runs in it. Raises AnalysisError with how the
+    drive ended.
     """
-    duration = way / speed + _DRIVE
+    duration = way / speed + drive
     samples = max(2, round(200 * duration))
     state = arriving.equilibrium(speed)
     stand_at(arriving.wheelsets, 0.0, True)

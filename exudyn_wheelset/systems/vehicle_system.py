@@ -240,6 +240,16 @@ def vehicle_system(vehicle: Vehicle, **options: Any) -> VehicleSystem:
     return system
 
 
+def has_friction(vehicle: Vehicle) -> bool:
+    """Whether dry friction holds bodies of a vehicle where they have come to."""
+    return any(
+        law.friction is not None
+        for one in vehicle.connections
+        if hasattr(one.element, "laws")
+        for law in one.element.laws()
+    )
+
+
 def followed_step(vehicle: Vehicle) -> float:
     """Time step [s] of RK44 that follows the vehicle's drives, dampers in series and friction."""
     step = DEFAULT_STEP
