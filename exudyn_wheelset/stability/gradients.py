@@ -22,13 +22,16 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.stability.hunting.aligned import FOLD_TOLERANCE
-from exudyn_wheelset.stability.hunting.fold_points import Side, fold_near, prepared
-from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity, sensitivity_at
+from exudyn_wheelset.stability.hunting.aligned import sensitivity_near
+from exudyn_wheelset.stability.hunting.fold_points import Side
+from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.numbers import Number, number_of, vehicle_numbers
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
+from exudyn_wheelset.systems.changed_vehicle import ChangedVehicles
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP, DynamicSystem
+from exudyn_wheelset.systems.vehicle_system import VehicleSystem
+from exudyn_wheelset.vehicles.description import Vehicle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -242,17 +245,16 @@ def fold_gradient(
     """
     description = description_of(vehicle)
     if sensitivity is None:
-        system = as_system(description)
-        point = fold_near(system, prepared(system, orbit), side, FOLD_TOLERANCE)
-        sensitivity = sensitivity_at(point)
+        sensitivity = sensitivity_near(as_system(description), orbit, side)
     fold = sensitivity
-    start = _rates(description, fold)
+    rates_of = _rates_of(description, fold)
+    start = rates_of(description)
 
     def derivative(number: Number) -> float:
         for step in (RATE_STEP * number.step, -RATE_STEP * number.step):
             try:
                 other = changed(description, number.name, number.value + step)
-                return fold.change(_rates(other, fold) - start) / step
+                return fold.change(rates_of(other) - start) / step
             except WheelsetError as error:
                 failure = error
         raise failure
@@ -260,11 +262,26 @@ def fold_gradient(
     return Gradient(fold.speed, description, derivative, "speed of the fold", names)
 
 
-def _rates(description: Any, fold: FoldSensitivity) -> Array:
-    """f (k, n) along the orbit of a fold; a description may know it without a model."""
-    known = getattr(description, "derivatives", None)
-    derivatives = known if callable(known) else as_system(description).derivatives
-    rates = np.asarray(derivatives(fold.states, fold.speed))
-    if not np.all(np.isfinite(rates)):
-        raise AnalysisError("the equations are not finite along the orbit of the fold")
-    return rates
+def _rates_of(description: Any, fold: FoldSensitivity) -> Callable[[Any], Array]:
+    """What gives f (k, n) along the orbit of a fold for descriptions with other numbers.
+
+    A description may know it without a model.
+    """
+    vehicles: ChangedVehicles | None = None
+    if isinstance(description, Vehicle):
+        system = as_system(description)
+        if isinstance(system, VehicleSystem):
+            vehicles = ChangedVehicles(description, system)
+
+    def rates_of(other: Any) -> Array:
+        if vehicles is not None:
+            rates = vehicles.rates(other, fold.states, fold.speed)
+        else:
+            known = getattr(other, "derivatives", None)
+            derivatives = known if callable(known) else as_system(other).derivatives
+            rates = np.asarray(derivatives(fold.states, fold.speed))
+        if not np.all(np.isfinite(rates)):
+            raise AnalysisError("the equations are not finite along the orbit of the fold")
+        return rates
+
+    return rates_of

@@ -2,21 +2,41 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Protocol
 
 import numpy as np
 
 from exudyn_wheelset.addresses import address_of
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.coupling.moving_frame import BODY, CENTRE, INERTIA, MASS, MOTION
+from exudyn_wheelset.coupling.track_frame import TrackFrame
+from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.systems import vehicle_kernel as kernel
 from exudyn_wheelset.systems.exudyn_layout import Layout
 from exudyn_wheelset.systems.system import DIFFERENCE_STEP
 from exudyn_wheelset.vehicles import layout as places
-from exudyn_wheelset.vehicles.assemble import VehicleItems
+from exudyn_wheelset.vehicles.assemble import Connectors
 from exudyn_wheelset.vehicles.description import Vehicle
+from exudyn_wheelset.vehicles.drawbar import Drawbar
 from exudyn_wheelset.vehicles.spin_drive import DRIVE_DAMPING
+
+
+class Parts(Protocol):
+    """What of a vehicle's items the compiled equations are made from (see `VehicleItems`)."""
+
+    @property
+    def contacts(self) -> Sequence[WheelRailContact]: ...
+
+    @property
+    def connectors(self) -> Connectors: ...
+
+    @property
+    def frame(self) -> TrackFrame: ...
+
+    @property
+    def drawbar(self) -> Drawbar | None: ...
 
 
 class CompiledVehicle:
@@ -26,9 +46,7 @@ class CompiledVehicle:
     what is changed there (a speed, a parameter) is changed here.
     """
 
-    def __init__(
-        self, vehicle: Vehicle, items: VehicleItems, states: Layout, scales: Array
-    ) -> None:
+    def __init__(self, vehicle: Vehicle, items: Parts, states: Layout, scales: Array) -> None:
         count = len(states.rotations)
         size = len(states.position_of)
         strokes = len(states.names) - states.positions - size
@@ -110,7 +128,7 @@ class CompiledVehicle:
         return finite
 
 
-def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
+def _bodies(vehicle: Vehicle, items: Parts) -> tuple[Array, Array]:
     """Rows (nb, BODY_ROW) of the bodies, and the inverse masses (6 nb)."""
     count = len(vehicle.parts)
     rows = np.zeros((count, kernel.BODY_ROW))
@@ -132,7 +150,7 @@ def _bodies(vehicle: Vehicle, items: VehicleItems) -> tuple[Array, Array]:
     return rows, inverse
 
 
-def _frame_rows(vehicle: Vehicle, items: VehicleItems) -> Array:
+def _frame_rows(vehicle: Vehicle, items: Parts) -> Array:
     """Rows (nb, BODY) of the bodies for the loads of their frame's motion."""
     rows = np.zeros((len(vehicle.parts), BODY))
     block = items.connectors.block

@@ -11,8 +11,8 @@ import numpy as np
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
+from exudyn_wheelset.vehicles.rail_support import level_contact
 from exudyn_wheelset.vehicles.struts import Strut
 
 # Of a wheel on its rail [N/m], for the sharing of loads: some 100 kN on 0.1 mm.
@@ -83,7 +83,7 @@ def balance(
         half = axle.wheelset.tape_half_distance
         places = (half, -half)
         if not tapes:
-            geometry = contact_geometry(axle.wheelset, vehicle.track, [0.0])
+            geometry = level_contact(axle.wheelset, vehicle.track)
             places = (half + geometry.left.wheel_y[0], -half - geometry.right.wheel_y[0])
         for hand, y in enumerate(places):
             wheels[2 * k + hand, 6 * k + 2] = 1.0

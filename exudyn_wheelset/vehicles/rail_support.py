@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.optimize import brentq
@@ -23,7 +24,8 @@ from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.contact.wheelset_contact import contact_parameters
 from exudyn_wheelset.coupling.wheel_forces import wheel_force
 from exudyn_wheelset.errors import ContactError
-from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.geometry.rigid import ContactGeometry, contact_geometry
+from exudyn_wheelset.profiles import Profile
 
 # Creepages, and so the forces of a wheelset in steady rolling, do not depend on the speed.
 _SPEED = 10.0
@@ -70,15 +72,65 @@ class RailWrench:
         return result[:6].copy(), (loads[0], loads[1])
 
 
+def level_contact(wheelset: Wheelset, track: Track) -> ContactGeometry:
+    """Rigid contact of a wheelset in the middle; raises ContactError where there is none."""
+    return _level_contact(shape_of(wheelset), track)
+
+
+def shape_of(wheelset: Wheelset) -> Wheelset:
+    """A wheelset of the same shape, one for all masses: tables of contact are built once for it."""
+    return _shape(
+        _Same(wheelset.wheel),
+        wheelset.radius,
+        wheelset.tape_half_distance,
+        _Same(wheelset.right_wheel),
+        wheelset.right_radius,
+    )
+
+
+@lru_cache(maxsize=64)
+def _level_contact(wheelset: Wheelset, track: Track) -> ContactGeometry:
+    return contact_geometry(wheelset, track, [0.0])
+
+
+class _Same:
+    """A profile as the key of a cache: the same object."""
+
+    def __init__(self, profile: Profile | None) -> None:
+        self.profile = profile
+
+    def __hash__(self) -> int:
+        return id(self.profile)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other.profile is self.profile
+
+
+@lru_cache(maxsize=64)
+def _shape(
+    wheel: _Same, radius: float, tape: float, right: _Same, right_radius: float | None
+) -> Wheelset:
+    assert wheel.profile is not None
+    inertia = (1.0, 1.0, 1.0)
+    return Wheelset(1.0, inertia, radius, wheel.profile, tape, right.profile, right_radius)
+
+
 def rest_on_rails(
-    wheelset: Wheelset, track: Track, contact: Contact, loads: Array, driven: bool = False
+    wheelset: Wheelset,
+    track: Track,
+    contact: Contact,
+    loads: Array,
+    driven: bool = False,
+    near: AxleRest | None = None,
 ) -> AxleRest:
     """Where the wheelset rolls straight ahead under vertical loads (left, right) [N].
 
     A driven one has the spin V/radius of its drive. Where no shift balances unlike loads (cones),
-    it stays in the middle. Raises ContactError where the rails do not carry it.
+    it stays in the middle. near: a like wheelset at rest, to begin with. Raises ContactError where
+    the rails do not carry it.
     """
-    geometry = contact_geometry(wheelset, track, [0.0])
+    wheelset = shape_of(wheelset)
+    geometry = _level_contact(wheelset, track)
     half = wheelset.tape_half_distance
     arms = (half + geometry.left.wheel_y[0], -half - geometry.right.wheel_y[0])
     weight = float(loads[0] + loads[1])
@@ -94,23 +146,11 @@ def rest_on_rails(
     touching = float(geometry.z[0])
 
     rails = RailWrench(wheelset, track, contact)
-
-    def excess(penetration: float) -> float:
-        pose = np.array([touching - penetration, 0.0, 0.0, radius])
-        return float(rails(pose)[0][2]) - weight
-
-    # Where one wheel is the larger, it presses alone before both touch.
-    lowest, highest = 0.0, 1.0e-4
-    while excess(lowest) > 0.0:
-        lowest = 2.0 * lowest - 1.0e-4
-    while excess(highest) < 0.0:
-        highest *= 2.0
-        if highest > _DEEPEST:
-            raise ContactError(
-                f"the rails do not carry {weight:.0f} N of one wheelset: check loads and "
-                "shear_modulus"
-            )
-    pose = np.array([touching - brentq(excess, lowest, highest, xtol=1e-14), 0.0, 0.0, radius])
+    if near is None:
+        depth = _depth(rails, touching, radius, weight)
+        pose = np.array([touching - depth, 0.0, 0.0, radius])
+    else:
+        pose = np.array([near.height, near.roll, near.shift, near.radius])
     wrench, _ = rails(pose)
     scale = np.array([weight, weight * half, weight, weight * radius])
     asked = np.array([weight, tipping, 0.0, 0.0])
@@ -133,6 +173,27 @@ def rest_on_rails(
     wrench, wheel_loads = rails(pose)
     height, roll, shift, radius = (float(value) for value in pose)
     return AxleRest(height, shift, roll, radius, wrench, wheel_loads)
+
+
+def _depth(rails: RailWrench, touching: float, radius: float, weight: float) -> float:
+    """How far [m] a wheelset in the middle sinks in under its weight [N] from where it touches."""
+
+    def excess(penetration: float) -> float:
+        pose = np.array([touching - penetration, 0.0, 0.0, radius])
+        return float(rails(pose)[0][2]) - weight
+
+    # Where one wheel is the larger, it presses alone before both touch.
+    lowest, highest = 0.0, 1.0e-4
+    while excess(lowest) > 0.0:
+        lowest = 2.0 * lowest - 1.0e-4
+    while excess(highest) < 0.0:
+        highest *= 2.0
+        if highest > _DEEPEST:
+            raise ContactError(
+                f"the rails do not carry {weight:.0f} N of one wheelset: check loads and "
+                "shear_modulus"
+            )
+    return float(brentq(excess, lowest, highest, xtol=1e-14))
 
 
 def _newton(left: Callable[[Array], Array], pose: Array, free: list[int]) -> Array | None:

@@ -15,11 +15,16 @@ from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import ContactError, WheelsetError
-from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.vehicles import kernel, layout
 from exudyn_wheelset.vehicles.balance import balance, given_preloads, inertias_of, weights
 from exudyn_wheelset.vehicles.description import Axle, Vehicle
-from exudyn_wheelset.vehicles.rail_support import AxleRest, RailWrench, rest_on_rails
+from exudyn_wheelset.vehicles.rail_support import (
+    AxleRest,
+    RailWrench,
+    level_contact,
+    rest_on_rails,
+    shape_of,
+)
 from exudyn_wheelset.vehicles.struts import Strut, block_of, strokes_at, struts_of
 
 _NEWTON_STEPS = 120
@@ -47,8 +52,8 @@ class Rest:
     pull: float = 0.0
 
 
-def find_rest(vehicle: Vehicle) -> Rest:
-    """The vehicle at rest.
+def find_rest(vehicle: Vehicle, near: Rest | None = None) -> Rest:
+    """The vehicle at rest; near: that of a vehicle of little other numbers, to begin with.
 
     Raises WheelsetError for a vehicle that cannot stand, with the body, the direction and the
     newtons, and ContactError for a wheelset that its rails do not carry.
@@ -56,16 +61,21 @@ def find_rest(vehicle: Vehicle) -> Rest:
     centres = np.array([part.centre for part in vehicle.parts])
     count = len(vehicle.wheelsets)
     for k, axle in enumerate(vehicle.wheelsets):
-        centres[k, 2] = axle.wheelset.radius + _touching(vehicle, axle)
+        height = near.axles[k].height if near is not None else _touching(vehicle, axle)
+        centres[k, 2] = axle.wheelset.radius + height
+    guesses: list[AxleRest | None] = [None] * count
+    if near is not None:
+        guesses[:] = near.axles
     # The heights of the axles depend on their loads and shift the points of the connections.
     for _ in range(3):
         struts = struts_of(vehicle, centres)
         given = given_preloads(vehicle, struts)
         forces, supports, sunk = balance(vehicle, struts, centres, given)
         axles = [
-            _stand(vehicle, axle, support)
-            for axle, support in zip(vehicle.wheelsets, supports, strict=True)
+            _stand(vehicle, axle, support, guess)
+            for axle, support, guess in zip(vehicle.wheelsets, supports, guesses, strict=True)
         ]
+        guesses[:] = axles
         moved = [
             axle.wheelset.radius + found.height
             for axle, found in zip(vehicle.wheelsets, axles, strict=True)
@@ -125,9 +135,11 @@ def _place_axles(pose: Array, axles: list[AxleRest]) -> None:
         pose[k, 1:] = found.shift, 0.0, found.roll, 0.0, 0.0
 
 
-def _stand(vehicle: Vehicle, axle: Axle, support: Array) -> AxleRest:
+def _stand(vehicle: Vehicle, axle: Axle, support: Array, near: AxleRest | None) -> AxleRest:
     try:
-        return rest_on_rails(axle.wheelset, vehicle.track, vehicle.contact, support, axle.driven)
+        return rest_on_rails(
+            axle.wheelset, vehicle.track, vehicle.contact, support, axle.driven, near
+        )
     except ContactError as error:
         raise ContactError(f"{vehicle.name}: wheelset {axle.name!r}: {error}") from error
 
@@ -135,7 +147,7 @@ def _stand(vehicle: Vehicle, axle: Axle, support: Array) -> AxleRest:
 def _touching(vehicle: Vehicle, axle: Axle) -> float:
     """Height [m] of the centre above the radius where both wheels just touch their rails."""
     try:
-        return float(contact_geometry(axle.wheelset, vehicle.track, [0.0]).z[0])
+        return float(level_contact(axle.wheelset, vehicle.track).z[0])
     except ContactError as error:
         raise ContactError(f"{vehicle.name}: wheelset {axle.name!r}: {error}") from error
 
@@ -181,7 +193,8 @@ def _settle(vehicle: Vehicle, rest: Rest) -> Rest:
     spins = len(vehicle.wheelsets)
     pulled, weight = heaviest_part(vehicle), float(inertias[:, 0].sum()) * max(vehicle.gravity, 1.0)
     rails = [
-        RailWrench(axle.wheelset, vehicle.track, vehicle.contact) for axle in vehicle.wheelsets
+        RailWrench(shape_of(axle.wheelset), vehicle.track, vehicle.contact)
+        for axle in vehicle.wheelsets
     ]
     free = rolls_freely(rest.struts, len(centres))
 

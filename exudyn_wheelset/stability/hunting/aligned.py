@@ -24,6 +24,7 @@ from exudyn_wheelset.stability.hunting.fold_points import BALANCE, Side, Slope, 
 from exudyn_wheelset.stability.hunting.fold_sensitivity import FoldSensitivity, sensitivity_at
 from exudyn_wheelset.stability.hunting.folds import Base
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError, balanced_mesh
+from exudyn_wheelset.systems.system import DynamicSystem
 
 # Error of the trivial multiplier above which more intervals are tried: so many times the branch's.
 ERROR = 1e-3
@@ -33,6 +34,9 @@ TOLERANCE = 1e-5
 # Of the speed of a fold at a corner [m/s]: beside a flange that only just touches, the slope of the
 # branch is steep, and for its derivatives the orbit has to be the fold's.
 FOLD_TOLERANCE = 1e-7
+# On elastic contact [m/s]: two intervals more or less move the speed by 1e-3, and derivatives by
+# 0.5 %.
+STIFF_FOLD_TOLERANCE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,3 +101,12 @@ def fold_at(equations: Collocation, fold: Base, beside: float) -> Point:
             return point_at(equations, fold, is_fold=True)
     multipliers = found.equations.multipliers(found.orbit, found.condensed)
     return Point(found.orbit, multipliers, 0.0, True, sensitivity_at(found))
+
+
+def sensitivity_near(system: DynamicSystem, orbit: Orbit, side: Side) -> FoldSensitivity:
+    """The sensitivity of the fold next to an orbit, found anew with mesh points on corners.
+
+    Raises WheelsetError where it is not found.
+    """
+    tolerance = STIFF_FOLD_TOLERANCE if system.stiff else FOLD_TOLERANCE
+    return sensitivity_at(fold_near(system, prepared(system, orbit), side, tolerance))

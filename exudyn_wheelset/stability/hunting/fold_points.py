@@ -26,6 +26,8 @@ from exudyn_wheelset.stability.hunting.orbit import Orbit, balanced_mesh
 from exudyn_wheelset.stability.hunting.symmetry import mirror_of_orbit
 from exudyn_wheelset.systems.system import DynamicSystem
 
+# The mesh follows the corners so many times.
+ALIGN = 3
 # Corners count as met when they lie this near to their mesh points, in phase.
 MET = 1e-5
 # The first step along the branch that shows the change of slope, as a share of the orbit's size.
@@ -96,12 +98,13 @@ def orbit_on_plane(
     guess: Orbit,
     way: Direction | None = None,
     start: Slope | None = None,
-    align: int = 3,
+    align: int = ALIGN,
 ) -> Slope:
     """The orbit on the plane across `way` through `guess`, its mesh on the corners of f.
 
     way: a direction along the branch on the guess's mesh; None: that of growth. start: equations
-    of a neighbour on the same mesh, to begin Newton's method with. Raises OrbitError.
+    of a neighbour on the same mesh, to begin Newton's method with; align: how often at most the
+    mesh follows the corners. Raises OrbitError.
     """
     equations = Collocation(system, guess.period, 1.0, guess.mirror)
     base = guess.mesh if start is None else start.base
@@ -143,20 +146,24 @@ def distance_between(point: Slope, other: Slope) -> float:
 def fold_near(system: DynamicSystem, orbit: Orbit, side: Side, tolerance: float = 1e-5) -> Slope:
     """The fold near an orbit: the least speed of its branch, or the highest, by `side`.
 
+    On elastic contact the mesh is held after the first orbit: there corners come and go from orbit
+    to orbit, and with them mesh points and the speed, by some 1e-3 m/s.
+
     tolerance: of the fold's speed [m/s]. Raises OrbitError where no orbit, and AnalysisError where
     no fold is found.
     """
     sign = 1.0 if side == "lowest" else -1.0
     point = orbit_on_plane(system, orbit)
+    align = 0 if system.stiff else ALIGN
     step = FIRST_STEP * point.size
     for _ in range(12):
         # A step with this slope would not change the speed by more.
         if abs(point.slope) * step <= tolerance:
             return point
         move = -sign * np.sign(point.slope) * step
-        other = orbit_on_plane(system, along(point, move), point.tangent, point)
+        other = orbit_on_plane(system, along(point, move), point.tangent, point, align)
         if other.slope * point.slope <= 0.0:
-            return _between(system, point, other, tolerance)
+            return _between(system, point, other, tolerance, align)
         point, step = other, 2.0 * step
         if step > FARTHEST * point.size:
             break
@@ -165,7 +172,9 @@ def fold_near(system: DynamicSystem, orbit: Orbit, side: Side, tolerance: float 
     )
 
 
-def _between(system: DynamicSystem, first: Slope, second: Slope, tolerance: float) -> Slope:
+def _between(
+    system: DynamicSystem, first: Slope, second: Slope, tolerance: float, align: int
+) -> Slope:
     """The point of vanishing slope between two, by false position with halved weights."""
     width = distance_between(first, second)
     lower, upper = 0.0, width
@@ -181,7 +190,7 @@ def _between(system: DynamicSystem, first: Slope, second: Slope, tolerance: floa
         where = float(
             np.clip(where, *np.sort([0.95 * lower + 0.05 * upper, 0.05 * lower + 0.95 * upper]))
         )
-        new = orbit_on_plane(system, along(best, where - place), best.tangent, best)
+        new = orbit_on_plane(system, along(best, where - place), best.tangent, best, align)
         best, place = new, where
         if new.slope * below > 0.0:
             lower, below = where, new.slope

@@ -17,17 +17,18 @@ when all hunt; descent is their default.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from exudyn_wheelset.checking import number
-from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.spelling import spelt
+from exudyn_wheelset.stability.hunting.aligned import sensitivity_near
 from exudyn_wheelset.stability.hunting.branch import Branch
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
@@ -238,6 +239,7 @@ def _by_continuation(
     fold = _simulated_fold(system, branch, speed)
     if fold is not None:
         speed, what = fold, "the fold of the limit cycle, beside which simulated motion stays"
+    kept = _sensitive(system, branch, speed)
     place = "from the Hopf point" if branch is branches[0] else "from a motion that hunts"
     means = "collocation and pseudo-arclength continuation"
     if branch.method != "continuation":
@@ -260,10 +262,23 @@ def _by_continuation(
         "; ".join([how, *remarks]),
         (speed, speed),
         hopf,
-        branch,
+        kept,
         dict.fromkeys(_trucks_at(system, branch, speed), speed),
         tuple(other for other in branches if other is not branch),
     )
+
+
+def _sensitive(system: DynamicSystem, branch: Branch, speed: float) -> Branch:
+    """The branch, its fold at a speed [m/s] with what a gradient asks for."""
+    folds = list(branch.folds)
+    for place, fold in enumerate(folds):
+        if fold.speed == speed and fold.sensitivity is None and fold.orbit is not None:
+            try:
+                found = sensitivity_near(system, fold.orbit, fold.side)
+            except WheelsetError:
+                continue
+            folds[place] = replace(fold, sensitivity=found)
+    return replace(branch, folds=folds)
 
 
 def _lowest(
