@@ -124,6 +124,9 @@ def test_the_lowest_stable_speed_is_a_fold_or_a_change_of_stability_that_counts(
     # A change above the lowest stable cycle is not the lowest speed.
     above = StabilityChange(48.0, "torus", 4)
     assert branch(speeds, stable, [], [above]).lowest_stable()[0] == 47.0
+    # Where one unstable cycle becomes another of more unstable multipliers, none is stable.
+    unstable = StabilityChange(46.2, "branch point", 2)
+    assert branch(speeds, stable, [], [unstable]).lowest_stable()[0] == 47.0
 
 
 def test_a_fold_whose_neighbours_are_uncertain_goes_by_the_orbits_further_on():

@@ -240,7 +240,9 @@ class Branch:
             if counted and self._stable_beside(fold.index) and fold <= speed:
                 speed, what = float(fold), "the fold of the limit cycle"
         for change in self.changes:
-            if change < speed and counts[change.index]:
+            # Between unstable orbits a further multiplier that leaves the circle bounds nothing.
+            beside = bool(np.any(self.stable[max(0, change.index - 1) : change.index + 1]))
+            if change < speed and beside and counts[change.index]:
                 speed, what = float(change), f"a {change.kind} of the limit cycle"
         return speed, what
 

@@ -175,10 +175,12 @@ class _Run:
         motion = self._motion(speed, start, typical_period(system, speed))
         verdict = motion.decide()
         if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
+            died = verdict is Ending.DIED_OUT
+            mend = "higher speed or with a larger" if died else "lower speed or with a smaller"
             raise AnalysisError(
                 f"{system.name} does not hunt at {speed:g} m/s: {verdict.sentence} after "
                 f"{motion.time:.3g} s{': ' + motion.failure if motion.failure else ''}; begin at a "
-                "higher speed or with a larger disturbance"
+                f"{mend} disturbance"
             )
         self._keep(speed, motion, verdict is Ending.SETTLED)
         self._choose_step(0)

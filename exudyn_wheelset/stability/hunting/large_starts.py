@@ -7,7 +7,9 @@ starts from its equilibrium with
 - lateral velocities of all wheelsets, as a blow gives them, which meet the flange at their own
   depth without a start inside the rail;
 - its hunting mode, which has the right phase between wheelsets and yaw;
-- lateral displacements of all wheelsets, alternating from one to the next, where there are several.
+- lateral displacements of all wheelsets, alternating from one to the next, where there are several;
+- an orbit that is known at a higher speed: hunting that goes on where the branch of that orbit ends
+  or loses its stability, in another shape, lives where no motion from rest may lead.
 
 Starts from which the vehicle derails are passed over. Displacements in scales (millimetres),
 velocities in m/s.
@@ -15,7 +17,7 @@ velocities in m/s.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,6 +26,7 @@ from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.descent import mode_disturbance
+from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import linearised
@@ -68,16 +71,28 @@ def large_starts(system: DynamicSystem, speed: float) -> Iterator[tuple[str, Arr
 
 
 def hunting_at(
-    system: DynamicSystem, speed: float, settling: Settling, smallest: float
+    system: DynamicSystem,
+    speed: float,
+    settling: Settling,
+    smallest: float,
+    orbits: Sequence[Orbit] = (),
 ) -> tuple[str, WatchedMotion] | None:
     """The first large start whose motion goes on hunting, and that motion; None if none does.
 
-    smallest: amplitude, in scales, from which a motion is called hunting.
+    smallest: amplitude, in scales, from which a motion is called hunting; orbits: whose motions,
+    brought to the speed [m/s], are starts as well, the first ones.
     """
     watched = watched_trucks(system)
     try:
         period = typical_period(system, speed)
-        starts = list(large_starts(system, speed))
+        slowed = [
+            (
+                f"the orbit at {orbit.speed:.4g} m/s",
+                system.carry_over(orbit.states[0], orbit.speed, speed),
+            )
+            for orbit in orbits
+        ]
+        starts = [*slowed, *large_starts(system, speed)]
     except AnalysisError:
         return None
     settling = replace(settling, rest=max(settling.rest, smallest))

@@ -35,6 +35,7 @@ from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
 from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
@@ -58,9 +59,14 @@ REACH = 1.3
 # Large disturbances: the hunting mode with so many scales (millimetres) of lateral displacement, on
 # the flange and short of it. A motion on the flange may hunt where a smaller one does not.
 LARGE = (10.0, 5.0)
+# Where such motions derail a descent begins with this many scales, or at this multiple of the Hopf
+# point's speed.
+SMALL, CLOSE = 1.0, 1.03
 # Speeds of the large starts that check a continuation, as shares of its answer; no more than so
 # many branches are added.
 CHECKED, MOST_BRANCHES = (0.985, 0.93, 0.85), 3
+# Orbits up to this multiple of the answer are slowed down to those speeds.
+NEAR = 1.05
 # Amplitude, in scales (millimetres), from which a cycle is called hunting.
 SMALLEST = 0.1
 # Criterion of the large starts and of the simulated check beside a fold.
@@ -187,10 +193,7 @@ def nonlinear_critical_speed(
         "state_file": state_file,
         "progress": progress,
     }
-    try:
-        descent = quasi_static_descent(system, high, low, disturbance=LARGE[0], **options)
-    except AnalysisError:
-        descent = quasi_static_descent(system, high, low, disturbance=LARGE[1], **options)
+    descent = _descent_from_hunting(system, hopf, high, low, options)
     if descent.outcome.ending is Ending.INTERRUPTED:
         raise KeyboardInterrupt(descent.reason)
     if np.isnan(descent.jumped):
@@ -201,12 +204,33 @@ def nonlinear_critical_speed(
     how = (
         f"{descent.speed:.4f} m/s is the middle of the interval from {lower:.4f} m/s, where "
         f"hunting died out, to {upper:.4f} m/s, where it settled, by quasi-static descent from "
-        f"{high:g} m/s ({descent.time:.0f} s of motion simulated); {_linear(hopf)}"
+        f"{descent.speeds[0]:g} m/s ({descent.time:.0f} s of motion simulated); {_linear(hopf)}"
     )
     by_truck = {name: speed for name, speed in descent.by_truck.items() if name}
     return NonlinearCriticalSpeed(
         descent.speed, method, how, descent.bracket, hopf, descent, by_truck
     )
+
+
+def _descent_from_hunting(
+    system: DynamicSystem, hopf: CriticalPoint, high: float, low: float, options: dict[str, Any]
+) -> Descent:
+    """A descent from the first of several starts that goes on hunting.
+
+    A motion that is too large for the play of its flanges, or too far above the Hopf point,
+    derails; a smaller one, or one that begins nearer to it, may not.
+    """
+    nearer = CLOSE * hopf.speed
+    starts = [(high, size) for size in (*LARGE, SMALL)]
+    if low < nearer < high:
+        starts += [(nearer, size) for size in (LARGE[1], SMALL)]
+    for begin, size in starts[:-1]:
+        try:
+            return quasi_static_descent(system, begin, low, disturbance=size, **options)
+        except AnalysisError:
+            continue
+    begin, size = starts[-1]
+    return quasi_static_descent(system, begin, low, disturbance=size, **options)
 
 
 def _by_continuation(
@@ -223,7 +247,9 @@ def _by_continuation(
     for _ in range(MOST_BRANCHES if check else 0):
         found = _lowest(system, branches, smallest)
         answer = found[0] if found else speeds[1]
-        added, said = _hunting_below(system, answer, speeds, smallest, settings)
+        added, said = _hunting_below(
+            system, answer, _orbits_above(branches, answer), speeds, smallest, settings
+        )
         remarks += said
         if added is None:
             break
@@ -326,6 +352,7 @@ def _simulated_fold(system: DynamicSystem, branch: Branch, speed: float) -> floa
 def _hunting_below(
     system: DynamicSystem,
     answer: float,
+    orbits: Sequence[Orbit],
     speeds: tuple[float, float],
     smallest: float,
     settings: ContinuationSettings | None,
@@ -337,7 +364,7 @@ def _hunting_below(
         if not speeds[0] < speed < answer:
             continue
         tried.append(f"{speed:.4g}")
-        hunting = hunting_at(system, speed, SHORT, smallest)
+        hunting = hunting_at(system, speed, SHORT, smallest, orbits)
         if hunting is None:
             continue
         words, motion = hunting
@@ -351,6 +378,24 @@ def _hunting_below(
         return branch, [said]
     where = f"{', '.join(tried)} m/s" if tried else "no speed: the range ends there"
     return None, [f"checked from large starts at {where}: none hunts"]
+
+
+def _orbits_above(branches: Sequence[Branch], answer: float) -> list[Orbit]:
+    """Of each branch the orbit next above the answer [m/s], and the one it ends with.
+
+    Not those that are unstable for certain, which lead away.
+    """
+    found = []
+    for branch in branches:
+        above = [
+            k
+            for k in map(int, np.flatnonzero(branch.stable | branch.uncertain))
+            if answer - 1e-9 <= branch.speed[k] < NEAR * answer
+        ]
+        if above:
+            nearest = min(above, key=lambda k: float(branch.speed[k]))
+            found += [branch.orbits[k] for k in {nearest, above[-1]}]
+    return found
 
 
 def _trucks_at(system: DynamicSystem, branch: Branch, speed: float) -> tuple[str, ...]:
