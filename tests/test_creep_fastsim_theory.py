@@ -6,7 +6,8 @@ from creep_reference import PATCH, spin_set
 from scipy.integrate import quad
 
 from exudyn_wheelset.creep import creep_force, creep_parameters, kalker_coefficients
-from exudyn_wheelset.creep.fastsim import slip_step
+from exudyn_wheelset.creep.fastsim import fastsim, slip_step
+from exudyn_wheelset.creep.fastsim_rows import fastsim_rows
 from exudyn_wheelset.errors import WheelsetError
 
 ELLIPSES = [(5.5e-3, 5.5e-3), (3e-3, 9e-3), (8e-3, 2e-3)]
@@ -202,3 +203,21 @@ def test_combined_creep_against_full_contact():
     assert worst["blended"] < 0.047
     assert worst["blended"] < min(worst["one"], worst["three"])
     assert worst["blended, rms"] < min(worst["one, rms"], worst["three, rms"])
+
+
+def test_all_strips_abreast_give_the_numbers_of_one_after_the_other():
+    """The march of the law's paper, strip by strip, against the one that laws are called with."""
+    random = np.random.default_rng(1)
+    for _ in range(400):
+        creep_x, creep_y, spin = random.normal(size=3) * 10.0 ** random.uniform(-6.0, 0.0, 3)
+        a, b = 10.0 ** random.uniform(-3.3, -1.7, 2)
+        rest = (a, b, 10.0 ** random.uniform(2.0, 6.0), random.uniform(0.05, 0.6), 82e9, 0.28)
+        grid = [random.integers(2, 40), random.integers(3, 40), random.integers(1, 4)]
+        parameters = np.array(grid, dtype=float)
+        one = np.array(fastsim(creep_x, creep_y, spin, *rest, parameters))
+        other = np.array(fastsim_rows(creep_x, creep_y, spin, *rest, parameters))
+        mirrored = np.array(fastsim_rows(creep_x, -creep_y, -spin, *rest, parameters))
+        np.testing.assert_array_equal(mirrored, other * [1.0, -1.0, -1.0])
+        # The place in a step at which spin counts loses ten digits to differences in slow turns.
+        limit = rest[2] * rest[3] * np.array([1.0, 1.0, np.sqrt(a * b)])
+        np.testing.assert_array_less(np.abs(one - other), 1e-8 * limit)

@@ -12,7 +12,7 @@ from exudyn_wheelset.creep.exact import LAW as EXACT
 from exudyn_wheelset.creep.exact_apart import exact_law
 from exudyn_wheelset.creep.exact_table import LAW as EXACT_TABLE
 from exudyn_wheelset.creep.exact_table import exact_table
-from exudyn_wheelset.creep.fastsim import fastsim
+from exudyn_wheelset.creep.fastsim_rows import fastsim_rows
 from exudyn_wheelset.creep.linear import LAW as LINEAR
 from exudyn_wheelset.creep.linear import linear
 from exudyn_wheelset.creep.own import OWN_LAW, call_law
@@ -58,7 +58,7 @@ def law_force(law_number, state):
         return polach_kalker(*state)
     if law_number == OWN_LAW:
         return call_law(*state)  # type: ignore[call-arg]
-    return fastsim(*state)
+    return fastsim_rows(*state)
 
 
 def force_at(
