@@ -45,8 +45,16 @@ matplotlib.use("Agg")
 REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = "exudyn_wheelset"
 PAGE = REPOSITORY / "docs" / "mutation.md"
+# In the copy: the test that noticed.
+FAILED = "failed-test.txt"
 
-
+_ENERGY = tuple(
+    f"contact/{name}.py"
+    for name in (
+        "ellipsoids", "energy", "gap", "gap_spline", "load_sets", "loads", "load_patches",
+        "energy_side",
+    )
+)  # fmt: skip
 GROUPS = {
     "creep": Group(
         (
@@ -108,6 +116,48 @@ GROUPS = {
         ),
         compiled=False,
     ),
+    "energy": Group(
+        _ENERGY,
+        ("test_pieces_of_the_stored_energy.py", "test_lines_of_force_and_equations.py"),
+        compiled=False,
+    ),
+    "energy-of-wheels": Group(
+        _ENERGY,
+        ("test_contact_energy.py",),
+        compiled=False,
+        deselected="loops or stiffness or half_space or worn or torque",
+    ),
+    "strips": Group(
+        tuple(f"contact/strip{name}.py" for name in ("s", "_creep", "_patches", "_side")),
+        ("test_strips_against_half_space.py",),
+    ),
+    "tables": Group(
+        tuple(f"contact/{name}.py" for name in ("tables", "curve", "rail_section", "layout")),
+        (
+            "test_contact_scan.py",
+            "test_contact_locus_of_a_turned_wheel.py",
+            "test_lines_of_force_and_equations.py",
+            "test_wheel_values_by_hand.py",
+        ),
+        compiled=False,
+    ),
+    "friction": Group(("contact/friction.py",), ("test_friction_by_rail_zone_and_slip.py",)),
+    "changing-rails": Group(("contact/changing_rails.py",), ("test_rails_that_change.py",)),
+    "local": Group(
+        ("contact/virtual_penetration.py", "contact/patch_curvature.py", "contact/sides_apart.py"),
+        ("test_contact_properties.py", "test_patches_of_a_sliding_wheelset.py"),
+        compiled=False,
+        deselected="polach or fastsim or finite_forces or mirrored_wheelset",
+    ),
+    "exact": Group(
+        tuple(f"creep/{name}.py" for name in ("exact", "exact_nodes", "cerruti", "exact_apart")),
+        ("test_creep_exact_theory.py",),
+    ),
+    "exact-table": Group(("creep/exact_table.py",), ("test_creep_exact_table.py",)),
+    "laws": Group(
+        tuple(f"creep/{name}.py" for name in ("kernel", "kernel_apart", "own", "registry")),
+        ("test_creep_own_law.py", "test_creep_properties.py"),
+    ),
 }
 GROUPS |= UPPER_GROUPS
 
@@ -128,6 +178,7 @@ def run_tests(copy: Path, group: Group, cache: Path, limit: float) -> tuple[str,
 
     In a fork of this process, in which the libraries are loaded and the package is not.
     """
+    (copy / FAILED).unlink(missing_ok=True)
     before, start = set(cache.iterdir()), time.monotonic()
     child = os.fork()
     if child == 0:
@@ -163,9 +214,20 @@ def _test_here(copy: Path, group: Group, cache: Path) -> int:
         options += ["-k", f"not ({group.deselected})"]
     tests = [str(copy / "tests" / name) for name in group.tests]
     try:
-        return int(pytest.main([*options, *tests]))
+        return int(pytest.main([*options, *tests], plugins=[_Failure(copy / FAILED)]))
     except BaseException:
         return 1
+
+
+class _Failure:
+    """Writes the name of the test that failed to a file."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.failed:
+            self.file.write_text(report.nodeid, encoding="utf-8")
 
 
 def run_group(name: str, count: int, seed: int, results: dict, file: Path) -> None:
