@@ -348,7 +348,7 @@ def test_parts_on_the_lines_give_the_mean(width):
 @pytest.mark.parametrize("beyond", [-1.0, 1.0])
 def test_a_load_beyond_the_range_has_its_parts_inside(beyond):
     start, count = -4e-3, 41
-    work = SimpleNamespace(parts=np.zeros((3, count + 2)))
+    work = SimpleNamespace(parts=np.zeros((3, count + 9)))
     for place in (3e-3, 3.6e-3, 6e-3):
         load = ranged(load_of(1.5e-3, 0.0, beyond * place), count)
         first, lines = plain(gap_spline.line_weights)(load, start, 1.0 / SPACING, work)

@@ -118,12 +118,7 @@ class Friction:
         data[places.P_RELAXED] = self.force / self.tangent
         pressing = self.force or max(preload[2], 0.0)
         if self.kind != places.CONSTANT and self.stiffness > 0.0:
-            load = preload[2]
-            compressed = load / self.stiffness
-            if self.gap > 0.0:
-                compressed = -self.gap
-            elif load > 0.0:
-                compressed += 0.5 * self.onset
+            compressed = -self.gap if self.gap > 0.0 else preload[2] / self.stiffness
             data[places.P_COMPRESSION] = compressed
             preload[2] = 0.0
             if self.kind == places.DISC:
