@@ -36,6 +36,20 @@ def test_erri_rms_of_the_whole_spectrum_and_of_3_to_25_m():
             assert 1e3 * math.sqrt(own[kind].variance(*band)) == pytest.approx(part, abs=1e-3)
 
 
+def test_erri_high_is_that_of_gensys():
+    """Points of ORE B176 high level in the documentation of GENSYS's program TRC_IPSD, m^2/(1/m).
+
+    At 1/m of 0.02, 0.1 and 0.2, with five digits; one-sided in cycles, so 2 pi times as much.
+    """
+    waves = np.array([0.02, 0.1, 0.2])
+    for kind, known in (
+        ("alignment", [2.3194e-4, 6.1608e-6, 7.3333e-7]),
+        ("vertical", [4.0897e-4, 1.0863e-5, 1.2931e-6]),
+    ):
+        density = 2.0 * np.pi * spectra("ERRI B176 high")[kind].density(2.0 * np.pi * waves)
+        np.testing.assert_allclose(density, known, rtol=1e-4)
+
+
 def test_fra_spectra_by_their_formula():
     """k A O_c^2/(O^2 (O^2 + O_c^2)), class 5, A of 0.0762 and 0.2095 cm^2 rad/m."""
     frequency = np.array([0.1, 0.5, 2.0])

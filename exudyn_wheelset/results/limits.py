@@ -2,8 +2,9 @@
 
 Each is an object with its edition, value, unit and, in words, what it is compared with. Where a
 limit depends on the vehicle it is a function. Those of 49 CFR 213.333 (vehicle/track interaction
-safety limits, edition of 2013), which are free to use, with V and L the vertical and lateral force
-of a wheel, 1 g = 9.80665 m/s^2, 1 kip = 4448.22 N:
+safety limits for passenger cars, final rule of 13 March 2013, 78 Federal Register 16052, in force
+since 11 July 2013), which are free to use, with V and L the vertical and lateral force of a wheel,
+1 g = 9.80665 m/s^2, 1 kip = 4448.22 N:
 
     single wheel vertical load ratio   V/V_static, least over 5 ft, at least 0.15
     single wheel L/V                   up to (tan d - 0.5)/(1 + 0.5 tan d), over 5 ft
@@ -12,6 +13,9 @@ of a wheel, 1 g = 9.80665 m/s^2, 1 kip = 4448.22 N:
     accelerations                      peak to peak over 1 s; RMS_t over 4 s (truck 2 s), the root
                                        mean square of what differs from the straight line through
                                        the window
+
+What of it was compared with a second public source stands in docs/track.md. Before a vehicle is
+assessed by one of these numbers it is to be read in the standard itself.
 """
 
 from __future__ import annotations
@@ -51,7 +55,7 @@ EN_14363 = {
     "body vertical": Limit(_EN, 2.5, "m/s^2", "0.4 to 10 Hz, maximum of |z''|, passenger vehicles"),
 }
 
-_CFR = "49 CFR 213.333 (2013)"
+_CFR = "49 CFR 213.333 (78 FR 16052, 2013)"
 CFR_213_333 = {
     "vertical load ratio": Limit(_CFR, 0.15, "-", "V/V_static of a wheel, at least, over 5 ft"),
     "truck side L/V": Limit(_CFR, 0.6, "-", "sums over a side of a truck, over 5 ft"),
@@ -66,6 +70,13 @@ COMFORT_STEPS = (
     Limit("EN 12299:2009", 2.5, "-", "N_MV below: comfortable"),
     Limit("EN 12299:2009", 3.5, "-", "N_MV below: medium"),
     Limit("EN 12299:2009", 4.5, "-", "N_MV below: uncomfortable; above: very uncomfortable"),
+)
+# The older scale of the same index; above the last: very poor.
+UIC_513_STEPS = (
+    Limit("UIC 513:1994", 1.0, "-", "N_MV below: very good"),
+    Limit("UIC 513:1994", 2.0, "-", "N_MV below: good"),
+    Limit("UIC 513:1994", 4.0, "-", "N_MV below: moderate"),
+    Limit("UIC 513:1994", 5.0, "-", "N_MV below: poor; above: very poor"),
 )
 
 

@@ -19,6 +19,12 @@ class:
     vertical, alignment  k A O_c^2/(O^2 (O^2 + O_c^2)), with no variance down to O = 0
     cross level, gauge   4 k A_v O_c^2/((O^2 + O_c^2)(O^2 + O_s^2))
 Cross level: height of the left rail over the right one. Gauge: by how much it is wider.
+
+Second sources: GENSYS (documentation of its program TRC_IPSD) has vertical and alignment of ORE
+B176 high level as points in m^2/(1/m), the same to 1e-4 from 5 to 50 m; its gauge there is half of
+the alignment, four times as much as here. FRA vertical of classes 5 and 6: 2.095e-5 and 3.4e-6
+m^2 rad/m in open programs after Zhang et al. 2001 and Podworna 2015. None for FRA class 4, nor for
+cross level and gauge.
 """
 
 from __future__ import annotations
