@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -147,3 +148,19 @@ def test_a_fold_whose_neighbours_are_uncertain_goes_by_the_orbits_further_on():
 def test_a_supercritical_branch_begins_at_its_hopf_point():
     found = branch([40.0, 41.0], [True, True], hopf=(39.99, 1.0)).lowest_stable()
     assert found == (39.99, "the Hopf point, which is supercritical")
+
+
+def test_a_drawn_branch_tells_uncertain_orbits_from_unstable_ones():
+    """Stable solid, unstable dashed, uncertain dash-dotted with a word in the legend."""
+    found = branch([40.0, 41.0, 42.0, 43.0, 44.0], [True, True, False, False, False])
+    found.uncertain[3] = True
+    assert [found.stability_after(k) for k in range(4)] == [True, False, None, None]
+    axes = found.plot()
+    pieces = {
+        line.get_linestyle(): line.get_xdata() for line in axes.lines if len(line.get_xdata())
+    }
+    assert pieces["-"].tolist() == [40.0, 41.0]
+    assert pieces["--"].tolist() == [41.0, 42.0]
+    assert pieces["-."].tolist() == [42.0, 43.0, 44.0]
+    assert axes.get_legend_handles_labels()[1] == ["stability uncertain"]
+    plt.close(axes.figure)

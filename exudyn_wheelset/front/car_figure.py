@@ -43,8 +43,8 @@ def draw_trucks(
 ) -> None:
     """Draw the lateral amplitude of each truck over speed: descent points, orbits as lines.
 
-    Orbits that are not stable for certain are dashed. Dotted lines: speeds at which trucks stop;
-    grey: the linear critical speed.
+    Unstable orbits are dashed, those of uncertain stability dash-dotted. Dotted lines:
+    speeds at which trucks stop; grey: the linear critical speed.
     """
     if trucks is not None:
         descent, branch = trucks.descent, trucks.branch

@@ -302,7 +302,8 @@ class Branch:
         colour: str = "C0",
         label: str | None = None,
     ) -> Axes:
-        """Draw amplitude over speed: stable solid, unstable dashed, Hopf point and folds marked.
+        """Draw amplitude over speed: stable solid, unstable dashed, of uncertain stability
+        dash-dotted, Hopf point and folds marked.
 
         `name` is the displacement (default the first), `factor` turns its unit into the plotted
         one (1e3 for mm). Returns the axes.
@@ -313,6 +314,8 @@ class Branch:
             ax = plt.subplots()[1]
         name = name or self.amplitude.names[0]
         draw_branch(ax, self, name, factor, colour, label)
+        if self.uncertain.any():
+            ax.legend(fontsize=8)
         ax.set_xlabel("forward speed [m/s]")
         ax.set_ylabel(f"half of peak to peak: {name}" + (f" x {factor:g}" if factor != 1 else ""))
         return ax
@@ -325,6 +328,14 @@ class Branch:
         if index + 1 in folds:
             return bool(self.stable[index])
         return bool(self.stable[index] and self.stable[index + 1])
+
+    def stability_after(self, index: int) -> bool | None:
+        """As `stable_after`; None where a point of the piece is of uncertain stability."""
+        folds = {fold.index for fold in self.folds}
+        ends = [k for k in (index, index + 1) if k not in folds]
+        if any(self.uncertain[k] for k in ends):
+            return None
+        return self.stable_after(index)
 
 
 _ARRAYS = (

@@ -1,7 +1,8 @@
 """A branch of limit cycles drawn: half of peak to peak over speed.
 
-Stable cycles are solid, others dashed; a dot marks the Hopf point, squares mark folds, triangles
-other changes of stability, each with its speed beside it.
+Stable cycles are solid, unstable ones dashed, those whose stability is uncertain dash-dotted in
+a lighter line with an entry of their own in the legend; a dot marks the Hopf point, squares mark
+folds, triangles other changes of stability, each with its speed beside it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,12 @@ if TYPE_CHECKING:
 
 # Marks nearer than this share of the drawn branch share a note, as in a branch of impacts.
 _NOTE_DISTANCE = 0.08
+UNCERTAIN = "stability uncertain"
+_STYLES: dict[bool | None, dict[str, Any]] = {
+    True: {"linestyle": "-", "linewidth": 1.6},
+    False: {"linestyle": "--", "linewidth": 1.6},
+    None: {"linestyle": "-.", "linewidth": 1.6, "alpha": 0.6},
+}
 
 
 def draw_branch(
@@ -33,20 +40,21 @@ def draw_branch(
     notes: write the speeds of Hopf point, folds and changes of stability beside their marks.
     """
     speed, values = branch.speed, factor * branch.amplitude[name]
-    steady = [branch.stable_after(index) for index in range(len(branch) - 1)]
+    steady = [branch.stability_after(index) for index in range(len(branch) - 1)]
     if branch.hopf is not None:
         speed, values = np.append(branch.hopf[0], speed), np.append(0.0, values)
-        steady.insert(0, bool(branch.stable[0]))
+        steady.insert(0, branch.stability[0])
     first = 0
     for index in range(1, len(steady) + 1):
         if index < len(steady) and steady[index] == steady[first]:
             continue
         piece = slice(first, index + 1)
-        style = "-" if steady[first] else "--"
-        axes.plot(speed[piece], values[piece], style, color=colour, linewidth=1.6)
+        axes.plot(speed[piece], values[piece], color=colour, **_STYLES[steady[first]])
         first = index
     if label is not None:
         axes.plot([], [], "-", color=colour, label=label)
+    if None in steady and UNCERTAIN not in axes.get_legend_handles_labels()[1]:
+        axes.plot([], [], color="0.4", label=UNCERTAIN, **_STYLES[None])
     marks: list[tuple[str, float, float, dict[str, Any], bool]] = []
     if branch.hopf is not None:
         marks.append(("Hopf", branch.hopf[0], 0.0, {"marker": "o", "clip_on": False}, False))

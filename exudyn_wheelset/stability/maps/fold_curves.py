@@ -19,6 +19,7 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.stability.hunting.condensed import Direction
 from exudyn_wheelset.stability.hunting.fold_points import (
+    ALIGN,
     Slope,
     distance_between,
     orbit_on_plane,
@@ -82,25 +83,49 @@ class FoldWorld:
         self.span = self.high - self.low
         self.slowest, self.fastest = speeds
         self._onward: dict[int, tuple[FoldPlace, Direction]] = {}
+        self._aligned: dict[int, tuple[FoldPlace, Slope]] = {}
 
     def reach(self, base: FoldPlace, move: Array) -> FoldPlace:
         """The place at a move from a base: an orbit of another vehicle across another plane."""
-        point = base.point
+        point = self._start(base)
         parameter = base.parameter
         guess = point.equations.moved(point.orbit, point.tangent, float(move[0]) * base.unit)
         if move[1]:
             parameter = float(np.clip(parameter + move[1] * self.span, self.low, self.high))
-            guess = point.equations.moved(guess, self.onward(base), float(move[1]))
-        found = orbit_on_plane(self.family(parameter), guess, point.tangent, point)
+            onward = self.onward(FoldPlace(point, base.parameter, base.unit))
+            guess = point.equations.moved(guess, onward, float(move[1]))
+        align = 0 if point.equations.system.stiff else ALIGN
+        found = orbit_on_plane(self.family(parameter), guess, point.tangent, point, align)
         change = abs(found.size / point.size - 1.0)
         if change > LARGEST_CHANGE or not 0.67 < found.orbit.period / guess.period < 1.5:
             raise OrbitError("Newton left the curve: the orbit changed its size or period")
         return FoldPlace(found, parameter, base.unit)
 
+    def _start(self, base: FoldPlace) -> Slope:
+        """The orbit of a base on the mesh that its neighbours are to have.
+
+        On elastic contact corners come and go from orbit to orbit, and the slope jumps with them:
+        there all places that are reached from one base share the mesh on its corners.
+        """
+        if not base.point.equations.system.stiff:
+            return base.point
+        known = self._aligned.get(id(base))
+        if known is None or known[0] is not base:
+            point = base.point
+            try:
+                point = orbit_on_plane(
+                    self.family(base.parameter), point.orbit, point.tangent, point, 1
+                )
+            except OrbitError:
+                point = base.point
+            known = (base, point)
+            self._aligned = {id(base): known}
+        return known[1]
+
     def onward(self, base: FoldPlace) -> Direction:
         """Change of the orbit with w on its plane: the linear equations of Newton's method."""
-        known = self._onward.get(id(base))
-        if known is not None and known[0] is base:
+        known = self._onward.get(id(base.point))
+        if known is not None and known[0].point is base.point:
             return known[1]
         point, orbit = base.point, base.point.orbit
         equations = point.equations
@@ -118,7 +143,7 @@ class FoldWorld:
         defects = -widths * orbit.duration * slope.reshape(len(widths), orbit.degree, -1)
         rows = [equations.phase(orbit), equations.inner(orbit.mesh, point.tangent)]
         direction = point.condensed.solve(defects, rows, [0.0, 0.0])
-        self._onward = {id(base): (base, direction)}
+        self._onward = {id(base.point): (base, direction)}
         return direction
 
     def between(self, base: FoldPlace, other: FoldPlace) -> Array:
