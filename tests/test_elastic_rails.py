@@ -2,10 +2,19 @@
 
 from dataclasses import fields
 
+import exudyn as exu
 import numpy as np
 import pytest
 
-from exudyn_wheelset import ExudynSystem, Track, WheelsetError, linear_critical_speed
+from exudyn_wheelset import (
+    ExudynSystem,
+    Track,
+    WheelsetError,
+    catalogue,
+    linear_critical_speed,
+    simulate,
+    static_equilibrium,
+)
 from exudyn_wheelset.catalogue.paper_wheelset import paper_wheelset
 from exudyn_wheelset.contact.forces_apart import wheelset_forces
 from exudyn_wheelset.contact.layout import PARAMETERS, Axle, Velocity, new_result
@@ -15,6 +24,8 @@ from exudyn_wheelset.coupling.elastic_apart import ELASTIC, elastic_forces
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.wheel_forces import wheel_force
 from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.vehicles.assemble import add_vehicle
 
 
 def build(elasticity):
@@ -104,3 +115,22 @@ def test_forces_are_those_of_rails_that_move_with_the_rates(law, slopes):
             values = getattr(one, field.name), getattr(other, field.name)
             np.testing.assert_allclose(*values, rtol=1e-9, atol=1e-9, err_msg=field.name)
     assert np.max(np.abs(rates)) > 1e-4
+
+
+def test_a_coach_sinks_into_elastic_rails_and_stays():
+    """A massless rail goes after its contact faster than steps of 0.5 ms hold."""
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    coach = catalogue.vehicle("manchester_coach")
+    add_vehicle(mbs, coach, 18.0, show=False, sensors=False, rail_elasticity=RailElasticity())
+    motion = simulate(mbs, 18.0, 0.5)
+    assert motion.outcome.ending is Ending.FINISHED
+    loads = motion.Q[-1]
+    np.testing.assert_allclose(loads, static_equilibrium_loads(coach), rtol=5e-3)
+    shift = motion["front leading rails: left z"][-1]
+    assert shift == pytest.approx(-loads[0, 0] / RailElasticity().vertical_stiffness, rel=1e-2)
+
+
+def static_equilibrium_loads(vehicle):
+    rest = static_equilibrium(vehicle)
+    return [[loads.left, loads.right] for loads in rest.wheel_loads.values()]

@@ -25,7 +25,8 @@ DEFAULT_STEP = 5.0e-4
 class Runner:
     """Runs an Exudyn system from given coordinates and reads every step back.
 
-    solver_type, step [s]: those of the settings where they are given, else RK44 and 5e-4 s.
+    solver_type, step [s]: those of the settings where they are given, else RK44 and 5e-4 s, less
+    where rails are elastic.
     nodes: all but Exudyn's ground. Sensors are added to `mbs`, which is assembled by the caller.
     memory: data coordinates may be there; they are not recorded.
     Raises AnalysisError, which begins with `name`, for nodes of data coordinates and for a solver
@@ -46,7 +47,8 @@ class Runner:
         self.settings = copied_settings(settings)
         integration = self.settings.timeIntegration
         if step is None:
-            step = DEFAULT_STEP
+            softened = [one.elasticity for one in self._contacts if one.elasticity is not None]
+            step = min([DEFAULT_STEP, *(one.longest_step() for one in softened)])
             if settings is not None:
                 step = (integration.endTime - integration.startTime) / integration.numberOfSteps
         self.step = positive("step", step, "s", 1.0)
