@@ -104,11 +104,12 @@ def _keep(out: Path, numbers: dict[str, Any], motions: dict[str, Motion]) -> lis
         label = f"{load}, {motion.speed:.1f} m/s"
         hunting.plot(motion.time, 1e3 * motion["front leading: y"], linewidth=0.9, label=label)
         hold = next(n for n in motion.columns if f"{WEDGE} lateral hold" in n)
-        sliding = motion["front bolster: y"] - motion["front left frame: y"]
-        wedge.plot(1e3 * sliding, motion.columns[hold], linewidth=0.7, label=label)
+        last = motion.after(max(0.0, motion.time[-1] - 0.7))
+        sliding = last["front bolster: y"] - last["front left frame: y"]
+        wedge.plot(1e3 * sliding, last.columns[hold], linewidth=0.9, label=label)
     over.set(xlabel="friction of the wedges [-]", ylabel="linear critical speed [m/s]")
     hunting.set(xlabel="time [s]", ylabel="y of the leading wheelset [mm]")
-    wedge.set(xlabel="bolster against side frame [mm]", ylabel="friction over slip force [-]")
+    wedge.set(xlabel="bolster against side frame, last 0.7 s [mm]", ylabel="friction over slip [-]")
     over.legend(fontsize=8, frameon=False)
     for axes in (hunting, wedge):
         axes.legend(

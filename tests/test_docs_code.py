@@ -26,7 +26,10 @@ BLOCK = re.compile(
     flags=re.S | re.M,
 )
 # Run, with more asked of it, by a test of its own.
-ELSEWHERE = {"your-own-vehicle.md": "tests/test_your_own_vehicle.py"}
+ELSEWHERE = {
+    "your-own-vehicle.md": "tests/test_your_own_vehicle.py",
+    "gallery.md": "tests/test_gallery.py",
+}
 # Diagrams and maps of whole pages.
 SLOW = {"stability-maps.md", "track.md"}
 

@@ -209,10 +209,19 @@ def test_numbers_and_nesting_beyond_reason(tmp_path, content, message):
 
 
 def test_missing_file_and_directory(tmp_path):
-    with pytest.raises(SettingsError, match="no such settings file"):
+    with pytest.raises(
+        SettingsError, match=r"no such settings file.*fine, generalized_alpha, rk44"
+    ):
         load_settings(tmp_path / "absent.json")
     with pytest.raises(SettingsError, match="cannot be read"):
         load_settings(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["rk44", "rk44.json"])
+def test_files_of_the_package_by_their_names(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    named, file = load_settings(name), load_settings(RUNS / "rk44.json")
+    assert changed_settings(named) == changed_settings(file)
 
 
 def test_settings_in_place():

@@ -68,7 +68,8 @@ def test_bautin_point():
 
 
 def test_cusp():
-    found = stability_map(cusp, "speed", "p", (-0.5, 1.0), speeds=(6.0, 13.0))
+    # With a bar, as from the command line.
+    found = stability_map(cusp, "speed", "p", (-0.5, 1.0), speeds=(6.0, 13.0), progress=True)
     (hopf,), (fold,) = found.hopf, found.folds
     np.testing.assert_allclose(hopf.speed, 9.0 + hopf.parameter, atol=1e-4)
     # Both folds are one curve, from the end of the range through the cusp and back.

@@ -230,6 +230,10 @@ def test_grids_open_over_their_axes():
     assert scattered["sine"].dims == ("case",)
 
 
+def _fails(case):
+    raise ValueError("broken")
+
+
 def test_axes_of_a_grid_and_drawings(tmp_path):
     import matplotlib.pyplot as plt
 
@@ -239,6 +243,10 @@ def test_axes_of_a_grid_and_drawings(tmp_path):
     lines = found.plot("angle", "sine").get_lines()
     assert [line.get_label() for line in lines] == ["side l", "side r"]
     assert lines[0].get_ydata().tolist() == [math.sin(1.0), math.sin(2.0)]
+    nothing = study(_fails, grid(side=[1.0, 2.0], angle=[0.0, 1.0]), 1, progress=False)
+    for draw in (nothing.map, nothing.plot):
+        with pytest.raises(WheelsetError, match="without results.*broken"):
+            draw()
     field = found.map("side", "angle", "sine").collections[0].get_array()
     assert np.asarray(field).ravel().tolist() == 2 * [math.sin(1.0)] + 2 * [math.sin(2.0)]
     found.draw_table()

@@ -146,8 +146,8 @@ def draw_left_contact(axes: Axes) -> None:
     )  # fmt: skip
     arrow(axes, (datum, -15), (datum + 24, -15), colour=RAIL, text="y", offset=(1.0, 1.5))
     axes.text(
-        datum + 2, -37, "rail: y from the highest\npoint, y > 0 to the\nfield side",
-        color=RAIL, fontsize=9, ha="right",
+        834, -6, "rail: y from the\nhighest point,\ny > 0 to the\nfield side",
+        color=RAIL, fontsize=9, ha="left", va="top",
     )  # fmt: skip
     left = geometry.left
     angle = float(left.angle[0])

@@ -10,6 +10,7 @@ type or a wrong enum value is a SettingsError that names the nearest right one.
 from __future__ import annotations
 
 import difflib
+import importlib.resources
 import json
 import math
 from collections.abc import Mapping
@@ -31,6 +32,8 @@ def load_settings(
     source: str | PathLike[str] | Mapping[str, Any] | None,
 ) -> exu.SimulationSettings:
     """Return Exudyn's simulation settings with the entries of a file (or mapping) applied.
+
+    A name that is no file is one of the package's own: "rk44", "generalized_alpha" or "fine".
 
     Raises SettingsError for a file that cannot be read or is no JSON object, unknown names, wrong
     types, unknown enum values and numbers outside Exudyn's range.
@@ -86,11 +89,32 @@ def changed_settings(settings: exu.SimulationSettings) -> dict[str, Any]:
     }
 
 
+def _shipped() -> dict[str, Any]:
+    """The settings files that come with the package, by their names."""
+    try:
+        folder: Any = importlib.resources.files("exudyn_wheelset.runs")
+        files = list(folder.iterdir())
+    except ModuleNotFoundError:
+        files = list((Path(__file__).resolve().parents[2] / "runs").glob("*.json"))
+    return {Path(one.name).stem: one for one in files if one.name.endswith(".json")}
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        own = _shipped()
+        if path.parent != Path() or path.name.removesuffix(".json") not in own:
+            raise SettingsError(
+                f"{path}: no such settings file; the package's own are {', '.join(sorted(own))}"
+            ) from None
+    found: str = own[path.name.removesuffix(".json")].read_text(encoding="utf-8")
+    return found
+
+
 def _read(path: Path) -> Mapping[str, Any]:
     try:
-        entries = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise SettingsError(f"{path}: no such settings file") from None
+        entries = json.loads(_text(path))
     except (OSError, UnicodeDecodeError) as error:
         raise SettingsError(f"{path}: cannot be read: {error}") from error
     except json.JSONDecodeError as error:

@@ -156,6 +156,12 @@ class Study:
         distinct = {tuple(row["case"].get(name) for name in values) for row in self.rows}
         return values if len(distinct) == len(self) else {}
 
+    def _first_result(self) -> str:
+        if not self.results:
+            why = next((row[REASON] for row in self.rows if row.get(REASON)), "it has no cases")
+            raise WheelsetError(f"a study without results cannot be drawn: {why}")
+        return self.results[0]
+
     def save_csv(self, path: str | Path) -> Path:
         """Write the table as CSV, atomically; returns the path."""
         import csv
@@ -180,7 +186,7 @@ class Study:
         Default: the first result over the first name, one line for each value of the second name.
         """
         ax = _axes(ax)
-        x, y = x or self.names[0], y or self.results[0]
+        x, y = x or self.names[0], y or self._first_result()
         if by is None and len(self.names) == 2:
             by = next(name for name in self.names if name != x)
         table = self.table
@@ -209,7 +215,7 @@ class Study:
         names = self.names
         if len(names) < 2 and None in (x, y):
             raise WheelsetError(f"a map needs two names; the cases have {', '.join(names)}")
-        x, y, value = x or names[0], y or names[1], value or self.results[0]
+        x, y, value = x or names[0], y or names[1], value or self._first_result()
         table, axes = self.table, self.axes()
         if set(axes) == {x, y}:
             order = np.lexsort([_ranks(table[x]), _ranks(table[y])])

@@ -81,7 +81,9 @@ class _Slopes:
 class Tracer(Generic[P]):
     """Follows one curve from one of its places."""
 
-    def __init__(self, world: World[P], start: P, step: float, report: Callable[[P], None]) -> None:
+    def __init__(
+        self, world: World[P], start: P, step: float, report: Callable[[], object]
+    ) -> None:
         self.world, self.start = world, start
         self.largest = step
         self.report = report
@@ -132,7 +134,7 @@ class Tracer(Generic[P]):
                     return places, f"no step leads on: {error}"
                 continue
             places.append(new)
-            self.report(new)
+            self.report()
             reason = self.world.ended(new)
             if reason:
                 return places, reason
