@@ -245,7 +245,7 @@ def test_axes_of_a_grid_and_drawings(tmp_path):
     assert lines[0].get_ydata().tolist() == [math.sin(1.0), math.sin(2.0)]
     nothing = study(_fails, grid(side=[1.0, 2.0], angle=[0.0, 1.0]), 1, progress=False)
     for draw in (nothing.map, nothing.plot):
-        with pytest.raises(WheelsetError, match="without results.*broken"):
+        with pytest.raises(WheelsetError, match=r"without results.*broken"):
             draw()
     field = found.map("side", "angle", "sine").collections[0].get_array()
     assert np.asarray(field).ravel().tolist() == 2 * [math.sin(1.0)] + 2 * [math.sin(2.0)]
