@@ -1,8 +1,8 @@
 from exudyn_wheelset import catalogue as catalogue
 from exudyn_wheelset import studies as studies
-from exudyn_wheelset.catalogue.lateral_wheelset import LateralParameters as LateralParameters
+from exudyn_wheelset.catalogue.lateral_parameters import LateralParameters as LateralParameters
+from exudyn_wheelset.catalogue.lateral_parameters import paper_parameters as paper_parameters
 from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset as LateralWheelset
-from exudyn_wheelset.catalogue.lateral_wheelset import paper_parameters as paper_parameters
 from exudyn_wheelset.catalogue.truck import Truck as Truck
 from exudyn_wheelset.catalogue.truck import dtu_truck as dtu_truck
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension as Suspension
@@ -64,10 +64,10 @@ from exudyn_wheelset.stability.simulation import simulate as simulate
 from exudyn_wheelset.studies import Study as Study
 from exudyn_wheelset.studies import study as study
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem as ExudynSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem as FunctionSystem
 from exudyn_wheelset.systems.steady_curve import SteadyCurve as SteadyCurve
 from exudyn_wheelset.systems.steady_curve import steady_curve as steady_curve
 from exudyn_wheelset.systems.system import DynamicSystem as DynamicSystem
-from exudyn_wheelset.systems.system import FunctionSystem as FunctionSystem
 from exudyn_wheelset.track.irregularity import Irregularity as Irregularity
 from exudyn_wheelset.track.layout import Curve as Curve
 from exudyn_wheelset.track.layout import Layout as Layout

@@ -7,7 +7,7 @@ import inspect
 import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from numbers import Real
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
@@ -59,6 +59,15 @@ def positive(what: str, value: Any, unit: str, high: float = math.inf, mend: str
             f"{high:g} {unit}; {mend or f'is it given in {unit}?'}"
         )
     return result
+
+
+def whole(what: str, value: Any, low: int = 0, high: float = math.inf) -> int:
+    """`value` as an int, if it is a whole number from `low` to `high`; raises WheelsetError."""
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not is_whole or not low <= int(value) <= high:
+        limits = f"of at least {low}" if math.isinf(high) else f"from {low} to {high:g}"
+        raise WheelsetError(f"{what} = {value!r}: give a whole number {limits}")
+    return int(value)
 
 
 def numbers(

@@ -13,7 +13,7 @@ from exudyn_wheelset import linear_critical_speed, stability_map
 from exudyn_wheelset.catalogue.cooperrider_bogie import SCALES, CooperriderBogie
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 auto = pytest.importorskip("bifpy.auto")
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from scipy.stats import binom, uniform
 
-from exudyn_wheelset import AnalysisError, basin
+from exudyn_wheelset import AnalysisError, WheelsetError, basin
 from exudyn_wheelset.stability.maps.basins import interval_of
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def normal_form():
@@ -93,5 +93,5 @@ def test_ways_to_give_a_disturbance():
         basin(system, -0.1, lambda random: np.zeros(3), samples=2)
     with pytest.raises(AnalysisError, match="is not one of"):
         basin(system, -0.1, {"roll": 1.0}, samples=2)
-    with pytest.raises(AnalysisError, match="whole number of at least 1"):
+    with pytest.raises(WheelsetError, match="whole number of at least 1"):
         basin(system, -0.1, 1.0, samples=0)

@@ -23,7 +23,7 @@ from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch_switching import switch_branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def system_of(name, rates, names, scales=None, displacements=(0,)):

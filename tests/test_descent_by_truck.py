@@ -10,7 +10,7 @@ import pytest
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.descent import Descent, quasi_static_descent
 from exudyn_wheelset.stability.hunting.settling import Settling, cycle_amplitudes
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 HOPF = {"front": 21.0, "rear": 20.0}
 FREQUENCY = {"front": 6.0, "rear": 6.4}

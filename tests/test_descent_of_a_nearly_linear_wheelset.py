@@ -16,7 +16,7 @@ from exudyn_wheelset.catalogue.by_name import vehicle_system
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 RATE = 0.2
 SHORT = Settling(cycles=100)

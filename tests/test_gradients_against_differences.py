@@ -23,7 +23,7 @@ from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.stability.numbers import number_of, vehicle_numbers
 from exudyn_wheelset.stability.subject import as_system, changed, description_of
 from exudyn_wheelset.systems.changed_vehicle import ChangedVehicles
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 @dataclass(frozen=True)

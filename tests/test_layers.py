@@ -14,6 +14,7 @@ LAYERS = (
         "arrays",
         "constants",
         "checking",
+        "kinds",
         "spelling",
         "locking",
         "compilation",

@@ -4,7 +4,6 @@ The systems are the normal form of `test_normal_form_hopf_fold.py` with an edge 
 """
 
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,8 +19,8 @@ from exudyn_wheelset.stability.hunting.disturbance import CriticalDisturbances, 
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.nonlinear import NoLimitCycleError, nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.settling import Settling
-from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def normal_form(edge=np.inf, at_edge=None, calls_left=None, name="normal form"):
@@ -296,7 +295,7 @@ def test_ranges_and_steps_that_the_documentation_names(monkeypatch, method, ends
     monkeypatch.setattr(
         nonlinear, "_by_continuation", lambda system, hopf, speeds, *_: stop(system, *speeds)
     )
-    hopf = SimpleNamespace(speed=50.0)
+    hopf = CriticalPoint(50.0, 1.0, 1j, np.ones(2), np.zeros(2), 1.0, "hopf", ("x", "y"), 0)
     with pytest.raises(InterruptedError):
         nonlinear_critical_speed(normal_form(), method, hopf=hopf)
     assert sorted(asked["speeds"]) == pytest.approx([50.0 * end for end in ends])

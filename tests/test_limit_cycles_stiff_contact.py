@@ -7,7 +7,7 @@ import pytest
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 FAST = 50.0
 

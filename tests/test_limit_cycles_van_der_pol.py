@@ -13,7 +13,7 @@ from exudyn_wheelset.stability.hunting.collocation import Collocation
 from exudyn_wheelset.stability.hunting.corrector import solve_orbit, speed_row
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.orbit import balanced_mesh, orbit_from_samples
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def _derivatives(states, mu):

@@ -16,7 +16,8 @@ from exudyn_wheelset.stability.linear.crossings import (
     stability_changes,
 )
 from exudyn_wheelset.stability.linear.linearisation import linearise, root_locus
-from exudyn_wheelset.systems.system import FunctionSystem, SimulationError, as_system
+from exudyn_wheelset.systems.function_system import FunctionSystem
+from exudyn_wheelset.systems.system import SimulationError, as_system
 
 
 def linear_system(*blocks, name="blocks"):

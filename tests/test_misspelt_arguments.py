@@ -36,8 +36,11 @@ SYSTEM = FunctionSystem(
         (lambda p: p.limit_cycles(SYSTEM, "hopf", (1, 6)), "'hopf': give 2 numbers"),
         (lambda p: p.limit_cycles(SYSTEM, [1, 0, 0], (1, 6)), "has 3 entries: give 2"),
         (lambda p: p.nonlinear_critical_speed(SYSTEM, low="1"), "low = '1' is no number"),
-        (lambda p: p.static_equilibrium("dtu_car"), r"is no Vehicle.*catalogue.vehicle\(name\)"),
-        (lambda p: p.with_free_lengths(5), "5 is no Vehicle"),
+        (
+            lambda p: p.static_equilibrium("dtu_car"),
+            "= .dtu_car.: give a Vehicle.*vehicle",
+        ),
+        (lambda p: p.with_free_lengths(5), "vehicle = 5: give a Vehicle"),
         (lambda p: p.dtu_truck(frition=0.3), "'frition'.*friction"),
         (lambda p: p.paper_parameters(1, masss=5.0), "'masss'.*did you mean 'mass'"),
         (lambda p: p.VehicleBuilder("v", p.Track("UIC60")).body("b", mas=5), "mean 'mass'"),

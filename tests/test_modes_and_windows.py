@@ -9,7 +9,7 @@ import pytest
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.stability.linear.linearisation import linearise
 from exudyn_wheelset.stability.linear.modes import hunting_share, mode_name
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
 NAMES = (

@@ -21,7 +21,7 @@ from exudyn_wheelset.stability.hunting.measured_growth import measured_growth
 from exudyn_wheelset.stability.hunting.nonlinear import _simulated_fold, nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.linear.crossings import hopf_points
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 DECAY = 0.3
 

@@ -45,7 +45,7 @@ def mbs():
         ({"sensors": 2}, r"sensors = 2: give True or False"),
         ({"frition": 0.4}, r"frition.*did you mean 'friction'"),
         ({"moving_fram": True}, r"moving_fram.*did you mean 'moving_frame'"),
-        ({"contact": 0.4}, r"contact is a float: give a Contact\(friction=0.4\)"),
+        ({"contact": 0.4}, r"contact = 0.4: give a Contact\(friction=0.4\)"),
         ({"contact": Contact(), "friction": 0.4}, r"friction = 0.4 is given beside a contact"),
         ({"friction": -0.1}, r"friction = -0.1: give a number from 0 to 5"),
         ({"rail_elasticity": 2e7}, r"rail_elasticity = 20000000.0: give a RailElasticity"),
@@ -63,10 +63,10 @@ def test_swapped_arguments_are_named(mbs):
     for arguments, words in (
         (
             (WHEELSET, mbs, TRACK),
-            r"mbs is a Wheelset: give Exudyn's system.*order is create",
+            r"wheelset is a MainSystem: give a Wheelset.*order is create_wheelset\(mbs, wheelset, ",
         ),
         ((mbs, TRACK, WHEELSET), r"wheelset is a Track: give a Wheelset"),
-        ((mbs, WHEELSET, "UIC60"), r"track is a str: give a Track\(\"UIC60\"\)"),
+        ((mbs, WHEELSET, "UIC60"), r"track = 'UIC60': give a Track\(\"UIC60\"\)"),
         ((CONTAINER, WHEELSET, TRACK), r"mbs is a SystemContainer"),
     ):
         with pytest.raises(WheelsetError, match=words):
@@ -82,7 +82,10 @@ def test_swapped_arguments_are_named(mbs):
         ({"step": 0.0}, r"step = 0.0 s: give a positive number in s"),
         ({"step": 20.0}, r"step = 20.0 s is out of proportion"),
         ({"solver_type": "RK45"}, r"unknown solver type 'RK45'.*did you mean 'RK44'"),
-        ({"settings": {"endTime": 2.0}}, r"settings is a dict: give exudyn.SimulationSettings"),
+        (
+            {"settings": {"endTime": 2.0}},
+            r"settings = \{'endTime': 2.0\}: give exudyn.Sim",
+        ),
         ({"name": 3}, r"name = 3: give a text"),
         ({"state_names": ["y [m]"]}, r"state_names has 1 entries, the system has 11 states: x \[m"),
         ({"state_names": "yaw"}, r"state_names has a text"),

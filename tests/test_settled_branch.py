@@ -8,7 +8,7 @@ import pytest
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.settled_branch import settled_branch
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def normal_form(step=0.0):

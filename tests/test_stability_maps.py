@@ -14,7 +14,7 @@ from exudyn_wheelset import AnalysisError, nonlinear_critical_speed, stability_m
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.stability.maps.curves import DISTURBED, HUNTS, STRAIGHT
 from exudyn_wheelset.stability.subject import changed, description_of
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def form(speed_of_square, twist=0.3):

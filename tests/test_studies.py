@@ -20,7 +20,7 @@ from exudyn.processing import ParameterVariation
 from exudyn_wheelset import WheelsetError
 from exudyn_wheelset.stability.linear.critical_speed import linear_critical_speed
 from exudyn_wheelset.studies import Study, files, grid, latin_hypercube, study, table_rows
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 def oscillator(case):

@@ -27,7 +27,7 @@ from exudyn_wheelset.stability.hunting.settling import (
     _falls_steadily,
     _judge,
 )
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 BLOCKS = np.arange(40)
 

@@ -28,7 +28,7 @@ def basin(speeds=0.9, disturbance=1e-3, **options):
 
 def film(vehicle="s1002", motion=None, *arguments, **options):
     if motion is None:
-        motion = ew.Motion(np.zeros(1), {}, None, 20.0)
+        motion = ew.Motion(np.zeros(1), {}, ew.Outcome(ew.Ending.FINISHED), 20.0)
     return ew.film(vehicle, motion, *arguments, **options)
 
 

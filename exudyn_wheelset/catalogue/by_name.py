@@ -21,7 +21,8 @@ from exudyn_wheelset.catalogue.cooperrider_bogie import CooperriderBogie
 from exudyn_wheelset.catalogue.cooperrider_bogie_3d import cooperrider_bogie_3d
 from exudyn_wheelset.catalogue.dtu_car import dtu_car
 from exudyn_wheelset.catalogue.freight_car import freight_car
-from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.lateral_parameters import paper_parameters
+from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset
 from exudyn_wheelset.catalogue.manchester_coach import manchester_coach
 from exudyn_wheelset.catalogue.three_axle_truck import three_axle_truck
 from exudyn_wheelset.catalogue.truck import Truck, dtu_truck

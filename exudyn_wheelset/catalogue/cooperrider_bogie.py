@@ -44,7 +44,7 @@ from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
-from exudyn_wheelset.systems.system import DIFFERENCE_STEP
+from exudyn_wheelset.systems.system import DIFFERENCE_STEP, FASTEST
 
 STATE_NAMES = (
     "q1 leading wheelset y [m]",
@@ -344,6 +344,7 @@ class CooperriderSystem(ExudynSystem):
     which are Exudyn's to rounding, motions from Exudyn's solver."""
 
     bogie: CooperriderBogie
+    speeds = (0.0, FASTEST)
 
     def derivative(self, state: Array, speed: float) -> Array:
         return self.derivatives(np.asarray(state)[None], speed)[0]

@@ -15,7 +15,7 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.catalogue.cooperrider_bogie import SCALES, STATE_NAMES, CooperriderBogie
 from exudyn_wheelset.compilation import compiled
-from exudyn_wheelset.systems.system import FunctionSystem
+from exudyn_wheelset.systems.function_system import FunctionSystem
 
 
 @compiled

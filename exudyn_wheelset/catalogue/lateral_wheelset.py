@@ -12,7 +12,7 @@ paper leaves out and why it is set as it is.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict
 from functools import cached_property
 from typing import Any
 
@@ -20,6 +20,8 @@ import numpy as np
 
 from exudyn_wheelset.catalogue import lateral_kernel as kernel
 from exudyn_wheelset.catalogue import lateral_motion as motion
+from exudyn_wheelset.catalogue.lateral_parameters import LateralParameters
+from exudyn_wheelset.checking import positive, unknown
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.contact.hertz import hertz_from_load
 from exudyn_wheelset.contact.patch_curvature import patch_half_curvatures
@@ -28,86 +30,17 @@ from exudyn_wheelset.coupling.guidance import guidance
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.geometry.piecewise import piecewise_geometry, with_short_cells
+from exudyn_wheelset.geometry.piecewise import REPRESENTATIONS, piecewise_geometry, with_short_cells
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.profiles import Profile, load_profile, shapes
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.spelling import spelt_class
-from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
+from exudyn_wheelset.systems.system import FASTEST, DynamicSystem, SimulationError
 
 CODES = ("mohan", "idealized", "profiled")
 
 
 @spelt_class
-@dataclass(frozen=True)
-class LateralParameters:
-    """Parameters of the lateral model; the defaults are Table 1, set 1, and docs/table2.md.
-
-    mass [kg]; roll_inertia, spin_inertia, yaw_inertia [kg m^2] about x, y, z; radius r0 [m];
-    contact_half_distance g_a [m] (knife-edge codes); spring_half_distance b [m];
-    longitudinal_stiffness k_x, lateral_stiffness k_y [N/m] and longitudinal_damping,
-    lateral_damping [N s/m] of one side; conicity [-]; axle_load W_a [N] with the wheelset's
-    weight; friction [-]; shear_modulus [Pa]; poisson [-]; rail_head_radius [m], which gives the
-    knife-edge codes their contact ellipse.
-
-    Examples
-    --------
-    >>> from exudyn_wheelset import LateralParameters
-    >>> LateralParameters(mass=1800).radius
-    0.3556
-    """
-
-    mass: float = 1751.0
-    roll_inertia: float = 761.0
-    spin_inertia: float = 130.0
-    yaw_inertia: float = 761.0
-    radius: float = 0.3556
-    contact_half_distance: float = 0.716
-    spring_half_distance: float = 0.610
-    longitudinal_stiffness: float = 2.85e5
-    lateral_stiffness: float = 1.84e5
-    longitudinal_damping: float = 0.0
-    lateral_damping: float = 0.0
-    conicity: float = 0.05
-    axle_load: float = 150.0e3
-    friction: float = 0.3
-    shear_modulus: float = 80.0e9
-    poisson: float = 0.27
-    rail_head_radius: float = 0.3
-
-    def __post_init__(self) -> None:
-        for name, value in asdict(self).items():
-            may_vanish = name.endswith("damping") or name == "poisson"
-            if not np.isfinite(value) or value < 0.0 or (value == 0.0 and not may_vanish):
-                wanted = "zero or more" if may_vanish else "a positive number"
-                raise WheelsetError(f"{name} = {value!r}: give {wanted} (SI units)")
-        if self.poisson > 0.5:
-            raise WheelsetError(f"poisson = {self.poisson!r}: give a number from 0 to 0.5")
-
-
-# k_x, k_y [N/m] of Table 1.
-PAPER_SPRINGS = ((2.85e5, 1.84e5), (2.85e6, 1.84e6), (9.12e6, 5.84e6))
-
-
-def paper_parameters(spring_set: int, **changes: float) -> LateralParameters:
-    """Parameters of Table 1 with spring set 1, 2 or 3, SI; changes: of LateralParameters, by name.
-
-    Raises WheelsetError for another set and for impossible values.
-
-    Examples
-    --------
-    >>> from exudyn_wheelset import paper_parameters
-    >>> paper_parameters(2).lateral_stiffness > paper_parameters(1).lateral_stiffness
-    True
-    """
-    if spring_set not in (1, 2, 3):
-        raise WheelsetError(f"spring_set = {spring_set!r}: Table 1 has the sets 1, 2 and 3")
-    k_x, k_y = PAPER_SPRINGS[spring_set - 1]
-    return replace(
-        LateralParameters(), longitudinal_stiffness=k_x, lateral_stiffness=k_y, **changes
-    )
-
-
 class LateralWheelset(DynamicSystem):
     """The lateral model as a system of four states: y [m], yaw [rad] and their rates.
 
@@ -130,6 +63,7 @@ class LateralWheelset(DynamicSystem):
     displacement_indices = (0, 1)
     lateral_indices = (0,)
     yaw_indices = (1,)
+    speeds = (0.0, FASTEST)
 
     def __init__(
         self,
@@ -152,6 +86,8 @@ class LateralWheelset(DynamicSystem):
     ) -> None:
         if code not in CODES:
             raise WheelsetError(f"code {code!r} is unknown: use one of {', '.join(CODES)}")
+        if representation not in REPRESENTATIONS:
+            raise unknown("representation", representation, REPRESENTATIONS)
         self.code = code
         self.parameters = parameters or LateralParameters()
         self.name = f"lateral wheelset, {code}"
@@ -177,7 +113,7 @@ class LateralWheelset(DynamicSystem):
         )
         self.lateral_limit = min(guidance(self.wheelset, self.track).shift)
         self.representation = representation
-        self.half_range = half_range
+        self.half_range = positive("half_range", half_range, "m", 0.1)
         p = np.zeros(kernel.PARAMETER_COUNT)
         p[kernel.MASS] = given.mass
         p[kernel.ROLL_INERTIA] = given.roll_inertia

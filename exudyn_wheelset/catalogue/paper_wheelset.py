@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset, paper_parameters
+from exudyn_wheelset.catalogue.lateral_parameters import paper_parameters
+from exudyn_wheelset.catalogue.lateral_wheelset import LateralWheelset
 from exudyn_wheelset.catalogue.wheelset_on_frame import Suspension, WheelsetOnFrame
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 

@@ -33,6 +33,7 @@ from exudyn_wheelset.catalogue.wheelset_on_frame import (
     WheelsetOnFrame,
     split_contact,
 )
+from exudyn_wheelset.checking import moments_of_inertia, number, positive
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.wheelset_contact import contact_forces
@@ -40,6 +41,7 @@ from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import contact_geometry
+from exudyn_wheelset.spelling import spelt, spelt_class
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.vehicle_system import vehicle_system
 from exudyn_wheelset.vehicles.assemble import VehicleItems, add_vehicle
@@ -66,6 +68,7 @@ class TruckItems:
         return tuple(items.contact for items in self.wheelsets)
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Truck:
     """A two-axle truck, ready to be built at any speed.
@@ -103,25 +106,15 @@ class Truck:
 
     def __post_init__(self) -> None:
         Contact(**self.contact)
-        positive = {
-            "frame_mass [kg]": self.frame_mass,
-            "half_wheelbase [m]": self.half_wheelbase,
-            "car_load [N]": self.car_load,
-            **{
-                f"frame_inertia I{axis} [kg m^2]": value
-                for axis, value in zip("xyz", self.frame_inertia, strict=True)
-            },
-        }
-        for what, value in positive.items():
-            if not np.isfinite(value) or value <= 0.0:
-                raise WheelsetError(f"{self.name}: {what} = {value!r}: give a positive number")
-        for what, value in (
-            ("half_wheelbase", self.half_wheelbase),
-            ("axle_drop", abs(self.axle_drop)),
-            ("secondary_rise", abs(self.secondary_rise)),
-        ):
-            if not value < 10.0:
-                raise WheelsetError(f"{self.name}: {what} = {value!r} m: give metres, below 10 m")
+        positive(f"{self.name}: frame_mass", self.frame_mass, "kg", 1e5)
+        inertia = moments_of_inertia(
+            f"{self.name}: frame_inertia", self.frame_inertia, self.frame_mass
+        )
+        object.__setattr__(self, "frame_inertia", inertia)
+        positive(f"{self.name}: half_wheelbase", self.half_wheelbase, "m", 10.0)
+        positive(f"{self.name}: car_load", self.car_load, "N", 1e7)
+        for what, value in (("axle_drop", self.axle_drop), ("secondary_rise", self.secondary_rise)):
+            number(f"{self.name}: {what}", value, "m", -10.0, 10.0, "is it given in metres?")
         for what, suspension in (("primary", self.primary), ("secondary", self.secondary)):
             if suspension.stiffness[2] <= 0.0:
                 raise WheelsetError(
@@ -291,6 +284,7 @@ class Truck:
         }
 
 
+@spelt
 def dtu_truck(wheel: Any = "S1002", rail: Any = "UIC60", **contact: Any) -> Truck:
     """A truck of the DTU passenger car with half the car's weight on it.
 

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 
 from exudyn_wheelset.checking import moments_of_inertia, number, positive, unknown
 from exudyn_wheelset.contact.friction import FLANGE, TOP, TREAD, frictions
+from exudyn_wheelset.contact.normal_models import NORMAL_MODELS
 from exudyn_wheelset.contact.rail_section import ProfileSource, RailSection, profile_of_kind
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.errors import WheelsetError
@@ -25,10 +26,6 @@ from exudyn_wheelset.profiles import Profile
 from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
-
-# Names of the normal contact models and their numbers in the kernels.
-NORMAL_MODELS = {"hertz": 0, "hertz-local": 1, "virtual-penetration": 2, "strips": 3, "energy": 4}
-
 
 # The creep law whose friction falls with slip by itself; in a contact the contact sees to that.
 _FALLING = "polach-2005"
@@ -84,6 +81,7 @@ class Wheelset:
         put(self, "right_radius", right_radius)
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Contact:
     """How wheels and rails press and rub on each other.

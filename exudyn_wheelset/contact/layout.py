@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
-from exudyn_wheelset.contact.descriptions import NORMAL_MODELS
+from exudyn_wheelset.contact.normal_models import NORMAL_MODELS
 
 MOST_LOBES = 4
 # A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic.

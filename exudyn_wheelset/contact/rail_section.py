@@ -8,6 +8,7 @@ from os import PathLike
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.spelling import spelt_class
 
 ProfileSource = Profile | str | PathLike
 
@@ -23,6 +24,7 @@ def profile_of_kind(source: ProfileSource, kind: str) -> Profile:
     return profile
 
 
+@spelt_class
 @dataclass(frozen=True)
 class RailSection:
     """From the station `start` [m] on the rails have other profiles.

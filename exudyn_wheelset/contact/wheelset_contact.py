@@ -37,6 +37,7 @@ from exudyn_wheelset.creep.exact_apart import EXACT_LAW
 from exudyn_wheelset.creep.kernel_apart import CREEP
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 
 
 @brief
@@ -125,6 +126,7 @@ def one_contact(contact: Contact | None, **given: Any) -> Contact:
     return contact
 
 
+@spelt
 def contact_forces(
     wheelset: Wheelset,
     track: Track,
@@ -188,6 +190,7 @@ def contact_forces(
     return read_result(result)
 
 
+@spelt
 def contact_energy(
     wheelset: Wheelset,
     track: Track,

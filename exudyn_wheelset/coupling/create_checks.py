@@ -87,7 +87,7 @@ def warn_of_depth(wheelset: Wheelset, track: Track, y: float, height: float, yaw
 def check_motion(speed: Any, gravity: Any, switches: Mapping[str, Any]) -> None:
     """Raise WheelsetError for speeds and weights out of range, and for switches that are none."""
     number("speed", speed, "m/s", -FASTEST, FASTEST, "is it given in m/s?")
-    number("gravity", gravity, "m/s^2", -100.0, 100.0)
+    number("gravity", gravity, "m/s^2", 0.0, 100.0, "positive is downwards")
     for what, value in switches.items():
         if not isinstance(value, bool | np.bool_):
             raise WheelsetError(f"{what} = {value!r}: give True or False")

@@ -13,7 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from exudyn_wheelset.checking import number, positive
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt_class
 
 # Stiffness [N/m] of a wheel's contact with its rail under 90 kN, by Hertz 3 N/(2 delta).
 _CONTACT = 1.5e9
@@ -21,6 +23,7 @@ _CONTACT = 1.5e9
 _REACH = 2.6
 
 
+@spelt_class
 @dataclass(frozen=True)
 class RailElasticity:
     """Springs and dampers under one rail at the wheel.
@@ -42,11 +45,13 @@ class RailElasticity:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if not np.isfinite(value) or value <= 0.0:
+            unit, high = ("N/m", 1e11) if name.endswith("stiffness") else ("N s/m", 1e8)
+            if number(name, value, unit) <= 0.0:
                 raise WheelsetError(
-                    f"{name} = {value!r}: give a positive number (N/m or N s/m); for rails that "
+                    f"{name} = {value!r} {unit}: give a positive number in {unit}; for rails that "
                     "do not give way leave the elasticity out"
                 )
+            positive(name, value, unit, high, "rails have some 1e7 to 1e9 N/m, 1e4 to 1e6 N s/m")
 
     def longest_step(self) -> float:
         """Time step [s] that RK44 holds: the rail goes after the contact's spring at its rate

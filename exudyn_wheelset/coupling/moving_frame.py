@@ -28,11 +28,13 @@ import numpy as np
 from exudyn.utilities import ObjectGenericODE2
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.checking import finite_array, number, positive
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.coupling.track_frame import TrackFrame
 from exudyn_wheelset.coupling.track_kernel import CURVED, LIVE, SPEED, START, frame_turning
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 
 _CURRENT = exu.ConfigurationType.Current
 # Motion of a frame: w [rad/s], w' [rad/s^2], a0 + g (n - e_z) [m/s^2], all in its axes.
@@ -135,6 +137,7 @@ def frame_loads(track, t, gravity, bodies, q, v, motion, forces):
         add_body_loads(motion, bodies[b], q, v, int(bodies[b, FIRST]), force)
 
 
+@spelt
 def add_frame_loads(
     mbs: Any,
     frame: TrackFrame,
@@ -164,8 +167,12 @@ def add_frame_loads(
     >>> mbs.GetObject(loads)["name"]
     'moving frame'
     """
+    if not hasattr(mbs, "GetNode"):
+        raise WheelsetError(f"mbs = {mbs!r}: give Exudyn's system, SC.AddSystem()")
+    number("gravity", gravity, "m/s^2", 0.0, 100.0)
     nodes, rows = [], []
     for node, mass, inertia in bodies:
+        positive("mass of a body", mass, "kg", 1e7)
         item = mbs.GetNode(node)
         reference = np.array(item["referenceCoordinates"], dtype=float)
         if item["nodeType"] != "RigidBodyRotVecLG" or np.any(reference[3:6]):
@@ -174,7 +181,7 @@ def add_frame_loads(
                 "NodeType.RotationRotationVector and no reference rotation to put it in a frame "
                 "that moves"
             )
-        tensor = np.asarray(inertia, dtype=float)
+        tensor = finite_array("inertia of a body", inertia, "kg m^2")
         if tensor.shape == (3,):
             tensor = np.diag(tensor)
         row = np.zeros(BODY)

@@ -16,11 +16,13 @@ import exudyn as exu
 
 from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt, spelt_class
 
 _WHEELSET = "registered_wheelset"
 _STATES = "first_order_states"
 
 
+@spelt_class
 @dataclass(frozen=True)
 class WheelsetItems:
     """Item numbers of a wheelset in an Exudyn system, and its contact.
@@ -80,6 +82,7 @@ def register_wheelset(function: Callable[..., Any], items: WheelsetItems) -> Non
     setattr(function, _WHEELSET, items)
 
 
+@spelt
 def wheelsets_of(mbs: Any) -> tuple[WheelsetItems, ...]:
     """The wheelsets that `create_wheelset` has added to `mbs`, in the order of their creation.
 

@@ -8,6 +8,7 @@ from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.contact.changing_rails import rails_change
 from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.coupling import track_kernel as kernel
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Layout
 
@@ -15,6 +16,7 @@ from exudyn_wheelset.track.layout import Layout
 _FAR_BEHIND = -1.0e12
 
 
+@spelt_class
 class TrackFrame:
     """A frame that travels along a track, for all wheelsets and bodies of one vehicle.
 

@@ -57,10 +57,12 @@ from exudyn_wheelset.coupling.wheelset_kernel import (
     wheel_history,
     wrench_at,
 )
+from exudyn_wheelset.spelling import spelt_class
 
 _CURRENT = exu.ConfigurationType.Current
 
 
+@spelt_class
 @dataclass(eq=False)
 class WheelRailContact:
     """Contact of one wheelset in an Exudyn model: its state between evaluations.

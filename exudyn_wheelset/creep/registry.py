@@ -77,6 +77,10 @@ def creep_law(law: Any) -> CreepLaw:
     for known in CREEP_LAWS.values():
         if known.function is not None and known.function == law:
             return known
+    if not callable(law):
+        raise WheelsetError(
+            f"creep law {law!r}: give the name of a law or a function compiled by numba.njit"
+        )
     address_of(law)
     return CreepLaw(
         getattr(law, "__name__", repr(law)), OWN_LAW, "a law of one's own", function=law
@@ -100,6 +104,7 @@ def law_of_kernel(number: int, values: NDArray) -> tuple[CreepLaw, dict[str, flo
     return law, {p.name: float(v) for p, v in zip(law.parameters, values, strict=False)}
 
 
+@spelt
 def register_creep_law(
     name: str,
     function: Any,

@@ -15,6 +15,7 @@ from typing import Any
 from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.creep import CREEP_LAWS
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.subject import description_of
 
 PAPERS = {
@@ -116,6 +117,7 @@ class Citation:
         return len(self.entries)
 
 
+@spelt
 def citation(vehicle: Any = None, *methods: str) -> Citation:
     """The papers behind a vehicle's laws and models, and behind the methods used on it.
 

@@ -22,12 +22,14 @@ import exudyn as exu
 
 from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import SettingsError
+from exudyn_wheelset.spelling import spelt
 
 # Exudyn's settings are four deep.
 _DEEPEST = 20
 _TOO_DEEP = f"nested more than {_DEEPEST} deep: the settings of Exudyn are four deep"
 
 
+@spelt
 def load_settings(
     source: str | PathLike[str] | Mapping[str, Any] | None,
 ) -> exu.SimulationSettings:

@@ -7,7 +7,10 @@ from collections.abc import Callable
 
 from tqdm import tqdm
 
+from exudyn_wheelset.spelling import spelt
 
+
+@spelt
 def warm_up(everything: bool = False, progress: bool = False) -> float:
     """Load or compile the kernels of a wheelset on its rails; return the seconds [s] it took.
 

@@ -28,11 +28,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.checking import finite_array, positive
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.spelling import spelt
 
@@ -335,8 +335,8 @@ def _rests(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _checked(y: ArrayLike, difference: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    shifts = np.asarray(y, dtype=float)
-    heights = np.asarray(difference, dtype=float)
+    shifts = finite_array("y", y, "m")
+    heights = finite_array("rolling_radius_difference", difference, "m")
     if shifts.ndim != 1 or shifts.shape != heights.shape or len(shifts) < 3:
         raise WheelsetError(
             f"y has the shape {shifts.shape}, rolling_radius_difference {heights.shape}: give two "
@@ -371,5 +371,4 @@ def _numbers(what: str, values: ArrayLike) -> FloatArray:
 
 
 def _check_length(what: str, value: float) -> None:
-    if not (isinstance(value, Real) and math.isfinite(value) and 0.0 < value <= 3.0):
-        raise WheelsetError(f"{what} = {value!r} m: give a positive length in m")
+    positive(what, value, "m", 3.0)

@@ -30,7 +30,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
-from exudyn_wheelset.checking import number
+from exudyn_wheelset.checking import number, whole
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 from exudyn_wheelset.geometry.rigid import ContactGeometry, searched_geometry
@@ -136,8 +136,7 @@ def piecewise_geometry(
     """
     if representation not in REPRESENTATIONS:
         raise WheelsetError(f"representation {representation!r}: use 'cubic' or 'polynomial'")
-    if not 1 <= highest_degree < _FIT_POINTS:
-        raise WheelsetError(f"highest_degree = {highest_degree!r}: give 1 to {_FIT_POINTS - 1}")
+    whole("highest_degree", highest_degree, 1, _FIT_POINTS - 1)
     half_range = number("half_range", half_range, "m", 1e-5, 0.1, "the largest shift, in metres")
     spacing = number("spacing", spacing, "m", 1e-7, half_range)
     tolerance = number("tolerance", tolerance, "m", 1e-12, 1e-2)

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import minimize
 
-from exudyn_wheelset.checking import finite_array
+from exudyn_wheelset.checking import finite_array, numbers
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
@@ -265,6 +265,7 @@ def contact_geometry(
     >>> (1e3 * found.rolling_radius_difference).round(2)  # [mm]
     array([0.  , 0.99])
     """
+    weights = numbers("weights", weights, 3, "-", 0.0)  # type: ignore[assignment]
     found = searched_geometry(wheelset, track, y, yaw, method, weights)
     places = np.column_stack((found.left.wheel_y, found.right.wheel_y))
     warn_if_rough(wheelset, track, found.y, places, level=4)

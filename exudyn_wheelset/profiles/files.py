@@ -23,6 +23,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from exudyn_wheelset.checking import number, positive
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.profiles.finish import Options, check_options, finish
@@ -38,14 +39,18 @@ from exudyn_wheelset.profiles.formats.raw import (
 from exudyn_wheelset.profiles.noise import warn_of_noise
 from exudyn_wheelset.profiles.profile import Profile
 from exudyn_wheelset.results.files import write_atomically
+from exudyn_wheelset.spelling import spelt
 
 BUNDLED = ("S1002", "UIC60", "AAR_1_20", "cone_1_20", "knife_edge")
 FORMATS = ("two-column", "simpack", "miniprof", "vampire", "gensys")
 _SIDES = ("left", "right")
+# Largest shift of a profile's points [m]: some frames begin at the middle of the track.
+_FARTHEST = 2.0
 _SLICE = re.compile(r"\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*,?\s*['\"]([^'\"]+\.\w+)['\"]")
 _LOG = logging.getLogger("exudyn_wheelset.profiles")
 
 
+@spelt
 def load_profile(
     name_or_path: str | os.PathLike[str] | Profile,
     *,
@@ -83,6 +88,10 @@ def load_profile(
     ('wheel', -3.92)
     """
     check_options(kind, smoothing)
+    if outlier_tolerance is not None:
+        positive("outlier_tolerance", outlier_tolerance, "m", 0.01)
+    number("shift_y", shift_y, "m", -_FARTHEST, _FARTHEST, "is it given in metres?")
+    number("shift_z", shift_z, "m", -_FARTHEST, _FARTHEST, "is it given in metres?")
     if not isinstance(name_or_path, str | os.PathLike | Profile):
         raise ProfileError(
             f"{name_or_path!r} is no profile: give a Profile, a file, or one of the names "
@@ -130,6 +139,7 @@ def load_profile(
     return profile
 
 
+@spelt
 def save_profile(profile: Profile, path: str | os.PathLike[str], format: str | None = None) -> Path:
     """Write the points of a profile to a file and return its path.
 

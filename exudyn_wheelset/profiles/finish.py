@@ -11,6 +11,7 @@ orientation from the shape; the caller's mirror and shift; datum.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 from numpy.typing import NDArray
@@ -330,7 +331,8 @@ def check_options(kind: str | None, smoothing: float | str) -> None:
         raise ProfileError(f"kind={kind!r}; use 'wheel' or 'rail'")
     if smoothing == "auto":
         return
-    if isinstance(smoothing, str) or not 0.0 <= smoothing <= 1e-3:
+    is_number = isinstance(smoothing, Real) and not isinstance(smoothing, bool)
+    if not is_number or not 0.0 <= smoothing <= 1e-3:  # type: ignore[operator]
         raise ProfileError(
-            f"smoothing = {smoothing}; use 'auto' or 0 to 1e-3 m (10 micrometres is 1e-5)"
+            f"smoothing = {smoothing!r}; use 'auto' or 0 to 1e-3 m (10 micrometres is 1e-5)"
         )

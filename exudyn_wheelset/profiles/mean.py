@@ -21,7 +21,9 @@ from numpy.typing import NDArray
 
 from exudyn_wheelset.errors import ProfileError
 from exudyn_wheelset.profiles.curve import averaged
+from exudyn_wheelset.profiles.finish import check_options
 from exudyn_wheelset.profiles.profile import Profile
+from exudyn_wheelset.spelling import spelt
 
 FloatArray = NDArray[np.float64]
 
@@ -33,6 +35,7 @@ _FARTHEST = 0.05
 _LARGEST_ANGLE = 0.2
 
 
+@spelt
 def mean_profile(sections: Sequence[Profile], smoothing: float | str = "auto") -> Profile:
     """The mean of sections of one wheel or one rail, measured one by one.
 
@@ -58,6 +61,7 @@ def mean_profile(sections: Sequence[Profile], smoothing: float | str = "auto") -
                 f"{section.name} is a {section.kind} and {first.name} a {first.kind}, or of the "
                 "other side; give sections of one wheel or one rail"
             )
+    check_options(first.kind, smoothing)
     curve = first.smoothed("auto")
     motions = [np.zeros(3), *(_motion(section, curve) for section in sections[1:])]
     middle = np.mean(motions, axis=0)

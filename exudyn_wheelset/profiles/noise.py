@@ -110,7 +110,7 @@ def warn_of_noise(name: str, sigma: float, noise: float) -> None:
             f"curve through them is off by {noise:.3g} 1/m, where a tread has about 3 1/m: contact "
             "will be rough and conicity wrong; give smoothing='auto'",
             WheelsetWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
 
 

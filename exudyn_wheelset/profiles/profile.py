@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,6 +32,7 @@ from exudyn_wheelset.profiles.plausible import (
     check_kind,
     check_points,
 )
+from exudyn_wheelset.spelling import spelt_class
 
 FloatArray = NDArray[np.float64]
 
@@ -39,6 +41,7 @@ KINDS = ("wheel", "rail")
 _HARMLESS_CURVATURE = 0.1
 
 
+@spelt_class
 @dataclass(frozen=True, eq=False)
 class Profile:
     """One wheel or rail profile as points and a cubic B-spline curve.
@@ -87,13 +90,14 @@ class Profile:
         check_points(self.name, y, z)
         if self.smoothing == "auto":
             self._smooth_automatically()
-        smoothing = float(self.smoothing)
-        if not 0.0 <= smoothing <= 1e-3:
+        smoothing = self.smoothing
+        is_number = isinstance(smoothing, Real) and not isinstance(smoothing, bool)
+        if not is_number or not 0.0 <= float(smoothing) <= 1e-3:
             raise ProfileError(
-                f"{self.name}: smoothing = {smoothing:g} m; give the rms distance of the points "
+                f"{self.name}: smoothing = {smoothing!r} m; give the rms distance of the points "
                 "to the curve in metres, 0 to 1e-3 (10 micrometres is 1e-5)"
             )
-        object.__setattr__(self, "smoothing", smoothing)
+        object.__setattr__(self, "smoothing", float(smoothing))
         if self.is_mirrored:
             check_kind(self.name, self.kind, -y[::-1], z[::-1])
         else:

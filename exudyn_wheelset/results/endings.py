@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from exudyn_wheelset.spelling import spelt_class
+
 
 class Ending(Enum):
     """A way to end; the value says it in words.
@@ -62,6 +64,7 @@ class Ending(Enum):
         return str(self.value)
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Outcome:
     """An ending with its numbers: `detail` says which wheelset, speed or height, or is empty.

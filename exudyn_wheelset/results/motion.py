@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.checking import finite_array, number
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results import comfort, en14363, netcdf
 from exudyn_wheelset.results import running_safety as safety
@@ -28,11 +29,13 @@ from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.files import write_columns
 from exudyn_wheelset.results.records import read_record, write_record
+from exudyn_wheelset.spelling import spelt_class
 
 KIND = "motion"
 _SIDES = ("left", "right")
 
 
+@spelt_class
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion:
     """The result of a simulation.
@@ -65,6 +68,10 @@ class Motion:
     start: float = 0.0
 
     def __post_init__(self) -> None:
+        number("speed", self.speed, "m/s")
+        number("start", self.start, "m")
+        if finite_array("time", self.time, "s").ndim != 1 or np.any(np.diff(self.time) < 0.0):
+            raise AnalysisError(f"time = {self.time!r}: give rising times (n,) [s]")
         wrong = {
             name: len(values) for name, values in self.columns.items() if len(values) != len(self)
         }

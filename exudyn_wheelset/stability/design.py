@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from exudyn_wheelset.checking import positive, refuse_options, whole
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.spelling import spelt
@@ -81,11 +82,17 @@ def design(
     >>> [round(float(value), 4) for value in found.changes["conicity"]]
     [0.05, 0.0482]
     """
+    refuse_options(nonlinear_critical_speed, options)
     for name in wanted:
         if name not in SPEEDS:
             raise AnalysisError(f"{name!r} cannot be asked for: give {' or '.join(SPEEDS)}")
     if not wanted or not vary:
         raise AnalysisError("give at least one speed to reach and one number to vary")
+    tolerance = positive("tolerance", tolerance, "-", 1.0)
+    largest_step = positive("largest_step", largest_step, "-", 1.0)
+    steps = whole("steps", steps, 1)
+    for name, speed in wanted.items():
+        positive(name, speed, "m/s")
     description = description_of(vehicle)
     first = {name: number_of(description, name).value for name in vary}
     if not all(first.values()):

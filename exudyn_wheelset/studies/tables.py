@@ -11,6 +11,7 @@ import numpy as np
 
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.results.files import write_atomically
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.studies.journal import Row, read_lines
 
 if TYPE_CHECKING:
@@ -61,6 +62,7 @@ class Table(Mapping[str, np.ndarray]):
         return "\n".join(lines)
 
 
+@spelt_class
 @dataclass(frozen=True, eq=False)
 class Study:
     """Cases and their results, in the order of the cases.

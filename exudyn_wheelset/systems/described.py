@@ -17,6 +17,7 @@ _FACTS = (
     "lateral_indices",
     "yaw_indices",
     "lateral_limit",
+    "speeds",
     "wheelset_names",
     "trucks",
     "stiff",

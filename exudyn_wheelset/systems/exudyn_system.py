@@ -26,6 +26,7 @@ from exudyn_wheelset.coupling.wheel_rail import WheelRailContact
 from exudyn_wheelset.creep.slopes import CreepPatch
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.endings import Ending, Outcome
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.systems.axisymmetry import check_spin, inverse_mass
 from exudyn_wheelset.systems.checks import check_arguments, check_states
 from exudyn_wheelset.systems.constraints import JointedLayout, follow_joints, jointed_layout
@@ -38,13 +39,14 @@ from exudyn_wheelset.systems.exudyn_wheelsets import (
     rolling_radii,
 )
 from exudyn_wheelset.systems.reduction import expand_state, state_rate
-from exudyn_wheelset.systems.system import DynamicSystem, SimulationError
+from exudyn_wheelset.systems.system import FASTEST, DynamicSystem, SimulationError
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 
 # Forward speed [m/s] while the model is taken over, before any analysis sets its own.
 FIRST_SPEED = 10.0
 
 
+@spelt_class
 class ExudynSystem(DynamicSystem):
     """A complete Exudyn model as an autonomous system over the forward speed.
 
@@ -157,6 +159,8 @@ class ExudynSystem(DynamicSystem):
         self._steady_velocities = layout.steady_velocities
         self.wheelset_names = tuple(layout.wheelsets)
         self.stiff = bool(self.wheelsets)
+        if self.wheelsets:
+            self.speeds = (-FASTEST, FASTEST)
         self.trucks = trucks_by_distance(layout.wheelsets)
         self._coordinates = np.zeros(self._order2)
         self._velocities = np.zeros(self._order2)

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import number, positive, refuse_options
+from exudyn_wheelset.checking import finite_array, number, positive, refuse_options
 from exudyn_wheelset.coupling.registration import WheelsetItems, wheelsets_of
 from exudyn_wheelset.coupling.running import progress_bar
 from exudyn_wheelset.coupling.wheel_forces import WHEEL_VALUES
@@ -282,10 +282,10 @@ def _start_state(system: DynamicSystem, speed: float, start: Start | None) -> Ar
         for name, value in start.items():
             index = column_index(system.state_names, name)
             state[index] += number(f"start of {name}", value, "SI")
-    elif np.ndim(start) == 0:
+    elif isinstance(start, str) or not isinstance(start, Sequence | np.ndarray):
         state = shifted_state(system, speed, number("start (lateral shift)", start, "m"))
     else:
-        state = np.array(start, dtype=float)
+        state = finite_array("start", start, "SI units")
     if state.shape != (system.size,) or not np.all(np.isfinite(state)):
         raise AnalysisError(
             f"{system.name}: the start has the shape {state.shape} or numbers that are not finite; "

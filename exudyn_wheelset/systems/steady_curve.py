@@ -31,7 +31,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
 from exudyn_wheelset.results.records import describe
-from exudyn_wheelset.spelling import spelt
+from exudyn_wheelset.spelling import spelt, spelt_class
 from exudyn_wheelset.systems.curving import DRIVE, driven_in
 from exudyn_wheelset.systems.fitting import check_curves, radial_steering_index
 from exudyn_wheelset.systems.simulation import motion_of
@@ -56,6 +56,7 @@ _CREEP = 24.0
 _NARROW = 175.0
 
 
+@spelt_class
 @brief
 @dataclass(frozen=True)
 class SteadyCurve:

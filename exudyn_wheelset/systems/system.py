@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import MappingProxyType
 from typing import Any
@@ -52,6 +52,10 @@ class SimulationError(AnalysisError):
         return type(self), (str(self), self.times, self.states, self.outcome)
 
 
+# Above any rail vehicle [m/s]: a speed beyond it is one in another unit.
+FASTEST = 400.0
+
+
 class DynamicSystem(ABC):
     """An autonomous system x' = f(x; speed) of n first-order equations.
 
@@ -65,6 +69,7 @@ class DynamicSystem(ABC):
     lateral_indices, yaw_indices  lateral displacement and yaw of each wheelset, in their order,
                           where the system knows its wheelsets
     lateral_limit         [m] beyond which a wheelset has left its track (`simulate` ends there)
+    speeds                [m/s] between which the equations hold, 0 left out; infinite ones: any
     stiff                 whether it has oscillations far faster than its motion: elastic contact
     wheelset_names        labels of the wheelsets in the state names ("leading" of "leading: y
                           [m]"); empty where every body with y and yaw may be one
@@ -87,6 +92,7 @@ class DynamicSystem(ABC):
     lateral_indices: tuple[int, ...] = ()
     yaw_indices: tuple[int, ...] = ()
     lateral_limit: float = math.inf
+    speeds: tuple[float, float] = (-math.inf, math.inf)
     stiff: bool = False
     wheelset_names: tuple[str, ...] = ()
     trucks: Mapping[str, tuple[str, ...]] = MappingProxyType({})
@@ -322,76 +328,3 @@ def as_system(vehicle: Any, **options: Any) -> DynamicSystem:
         "equations, ExudynSystem for an Exudyn model) or an object whose method dynamic_system() "
         "returns one"
     )
-
-
-class FunctionSystem(DynamicSystem):
-    """A system from a plain Python or numba function derivative_function(state, speed) -> (n,).
-
-    `jacobian_function(state, speed) -> (n, n)` and the vectorised `derivatives_function` and
-    `jacobians_function` (states (m, n), speed) replace the defaults where they are given.
-    `displacement_indices` defaults to the first half of the states.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from exudyn_wheelset import FunctionSystem, linear_critical_speed
-    >>> def pendulum(state, speed):  # damped below 30 m/s, driven above
-    ...     x, rate = state
-    ...     return np.array([rate, -40.0 * x + (speed - 30.0) * rate])
-    ...
-    >>> system = FunctionSystem("pendulum", pendulum, ["x [m]", "rate [m/s]"], [1e-3, 1e-2])
-    >>> round(linear_critical_speed(system, 20, 40).speed, 3)
-    30.0
-    """
-
-    def __init__(
-        self,
-        name: str,
-        derivative_function: Callable[[Array, float], Array],
-        state_names: Sequence[str],
-        scales: Sequence[float] | Array,
-        *,
-        displacement_indices: Sequence[int] | None = None,
-        jacobian_function: Callable[[Array, float], Array] | None = None,
-        derivatives_function: Callable[[Array, float], Array] | None = None,
-        jacobians_function: Callable[[Array, float], Array] | None = None,
-        parameters: Mapping[str, Any] | None = None,
-    ) -> None:
-        self.name = name
-        self.state_names = tuple(state_names)
-        self.scales = np.array(scales, dtype=float)
-        size = len(self.state_names)
-        if self.scales.shape != (size,) or not np.all(self.scales > 0.0):
-            raise AnalysisError(
-                f"{name}: scales must be {size} positive numbers, one a state, got "
-                f"{self.scales.tolist()}"
-            )
-        if displacement_indices is None:
-            displacement_indices = range(max(1, size // 2))
-        self.displacement_indices = tuple(displacement_indices)
-        self.parameters = dict(parameters or {})
-        self._derivative = derivative_function
-        self._jacobian = jacobian_function
-        self._derivatives = derivatives_function
-        self._jacobians = jacobians_function
-
-    def derivative(self, state: Array, speed: float) -> Array:
-        return np.asarray(self._derivative(np.asarray(state, dtype=float), float(speed)))
-
-    def jacobian(self, state: Array, speed: float) -> Array:
-        if self._jacobian is None:
-            return super().jacobian(state, speed)
-        return np.asarray(self._jacobian(np.asarray(state, dtype=float), float(speed)))
-
-    def derivatives(self, states: Array, speed: float) -> Array:
-        if self._derivatives is None:
-            return super().derivatives(states, speed)
-        return np.asarray(self._derivatives(np.asarray(states, dtype=float), float(speed)))
-
-    def jacobians(self, states: Array, speed: float) -> Array:
-        if self._jacobians is None:
-            return super().jacobians(states, speed)
-        return np.asarray(self._jacobians(np.asarray(states, dtype=float), float(speed)))
-
-    def measures(self) -> dict[str, Any]:
-        return {**super().measures(), "parameters": self.parameters}

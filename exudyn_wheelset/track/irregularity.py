@@ -26,13 +26,14 @@ from scipy.interpolate import CubicSpline
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number, numbers, positive, unknown
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.spelling import spelt
+from exudyn_wheelset.spelling import spelt, spelt_class
 from exudyn_wheelset.track.spectra import KINDS, Spectrum, spectra
 
 # Rails farther off [m] are broken, or given in millimetres.
 _FARTHEST = 0.3
 
 
+@spelt_class
 class Irregularity:
     """Shifts of both rails over the distance.
 
@@ -54,8 +55,8 @@ class Irregularity:
     """
 
     def __init__(self, distance: Any, shifts: Any, name: str = "points") -> None:
-        self.distance = np.ascontiguousarray(distance, dtype=float)
-        self.shifts = np.ascontiguousarray(shifts, dtype=float)
+        self.distance = np.ascontiguousarray(_numbers_of("distance", distance))
+        self.shifts = np.ascontiguousarray(_numbers_of("shifts", shifts))
         self.name = name
         _check_distance(self.distance)
         if self.shifts.shape != (len(self.distance), 4):
@@ -95,11 +96,11 @@ class Irregularity:
 
         Distances need not be equal. Signs: module header.
         """
-        distance = np.asarray(distance, dtype=float)
+        distance = _numbers_of("distance", distance)
         _check_distance(distance)
         columns = []
         for kind, values in zip(KINDS, (alignment, vertical, cross_level, gauge), strict=True):
-            column = np.asarray(values, dtype=float)
+            column = _numbers_of(kind, values)
             if column.ndim and column.shape != distance.shape:
                 raise WheelsetError(
                     f"{kind} has {column.size} values for {len(distance)} distances: give one each"
@@ -317,6 +318,14 @@ def _count(length: Any, spacing: Any) -> int:
     spacing = positive("spacing", spacing, "m", length)
     # An even number, so that the waves come in pairs.
     return int(2 * max(1, math.ceil(0.5 * length / spacing - 1e-9)))
+
+
+def _numbers_of(what: str, values: Any) -> Array:
+    """The values as floats, not-a-number among them; WheelsetError for texts and other things."""
+    try:
+        return np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise WheelsetError(f"irregularity: {what} = {values!r:.80}: give numbers in m") from None
 
 
 def _check_distance(distance: Array) -> None:

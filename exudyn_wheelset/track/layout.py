@@ -27,6 +27,7 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.checking import number, numbers, positive, unknown
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.track.piecewise import Pieces, on_common_breaks, polyline, rounded
 from exudyn_wheelset.track.transitions import SHAPES, STRAIGHT_RAMPS, shape_pieces
 
@@ -47,6 +48,7 @@ def _check_element(element: Any, what: str) -> None:
         put(element, "start", number(f"{what}: start", element.start, "m"))
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Straight:
     """Straight level track of a length [m]; start [m]: its station, to be checked if given.
@@ -65,6 +67,7 @@ class Straight:
         _check_element(self, "straight")
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Curve:
     """Circular curve: radius [m], positive to the left, length [m] along the centre line.
@@ -102,6 +105,7 @@ class Curve:
         return 1.0 / self.radius
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Transition:
     """Transition curve of a length [m] between the elements beside it; shape: see transitions.py.
@@ -128,6 +132,7 @@ class Transition:
 TrackElement = Straight | Curve | Transition
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Layout:
     """Elements of a track one after the other from station 0.

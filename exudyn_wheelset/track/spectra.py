@@ -36,8 +36,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import unknown
+from exudyn_wheelset.checking import number, positive, unknown, whole
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt_class
 
 KINDS = ("alignment", "vertical", "cross_level", "gauge")
 UNIT = "m^2/(rad/m), square metres per radian per metre"
@@ -45,6 +46,7 @@ _ERRI = "ORE B176 RP 1, 1989"
 _FRA = "FRA, Hamid et al. 1983"
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Spectrum:
     """One-sided power spectral density of one kind of irregularity.
@@ -64,6 +66,12 @@ class Spectrum:
     power: int
     poles: tuple[float, ...]
     unit: str = UNIT
+
+    def __post_init__(self) -> None:
+        positive("amplitude", self.amplitude, "SI", 1.0)
+        whole("power", self.power, 0, 20)
+        for pole in self.poles:
+            number("one of poles", pole, "rad/m", 0.0, 1e3)
 
     def density(self, frequency: Array | float) -> Array:
         """S [m^2/(rad/m)] at angular spatial frequencies O [rad/m]."""

@@ -18,7 +18,7 @@ from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
-from exudyn_wheelset.spelling import spelt
+from exudyn_wheelset.spelling import spelt, spelt_class
 from exudyn_wheelset.vehicles.description import (
     GROUND,
     Axle,
@@ -26,6 +26,7 @@ from exudyn_wheelset.vehicles.description import (
     Connection,
     Load,
     Vehicle,
+    check_loading,
 )
 
 
@@ -39,6 +40,7 @@ class Part:
     z: float
 
 
+@spelt_class
 class VehicleBuilder:
     """A vehicle being built. Parts may be named or, in what takes parts, given by their names.
 
@@ -74,7 +76,7 @@ class VehicleBuilder:
         self._track = track
         self._contact = Contact() if contact is None else contact
         self._preload = preload
-        self._gravity = gravity
+        self._gravity = check_loading(preload, gravity)
         self._parts: dict[str, Body | Axle] = {}
         self._connections: dict[str, Connection] = {}
         self._loads: list[Load] = []

@@ -18,6 +18,7 @@ from exudyn_wheelset.checking import moments_of_inertia, number, numbers, positi
 from exudyn_wheelset.constants import GRAVITY
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.vehicles.elements.protocol import check_element
 
 # The far end of a connection that stands on no body: what moves along at the forward speed.
@@ -142,6 +143,7 @@ class Load:
         put(self, "at", numbers(f"{what}: at (x, y, z)", self.at, 3, "m", -100.0, 100.0))
 
 
+@spelt_class
 @dataclass(frozen=True, repr=False)
 class Vehicle:
     """Bodies, wheelsets and connections on a track.
@@ -190,9 +192,7 @@ class Vehicle:
             raise WheelsetError(f"{self.name}: track = {self.track!r}: give a Track")
         if not isinstance(self.contact, Contact):
             raise WheelsetError(f"{self.name}: contact = {self.contact!r}: give a Contact")
-        if self.preload not in PRELOADS:
-            raise unknown("preload", self.preload, PRELOADS)
-        put(self, "gravity", number("gravity", self.gravity, "m/s^2", 0.0, 100.0))
+        put(self, "gravity", check_loading(self.preload, self.gravity))
         if not self.wheelsets:
             raise WheelsetError(f"{self.name} has no wheelset: give it at least one")
         self._check_names()
@@ -378,3 +378,10 @@ def _mirrored_track(track: Track) -> Track:
             for one in track.sections
         ),
     )
+
+
+def check_loading(preload: str, gravity: float) -> float:
+    """Gravity [m/s^2] as a float; WheelsetError where it or the kind of preload is none."""
+    if preload not in PRELOADS:
+        raise unknown("preload", preload, PRELOADS)
+    return number("gravity", gravity, "m/s^2", 0.0, 100.0)

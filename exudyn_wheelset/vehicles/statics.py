@@ -18,6 +18,7 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import VehicleError, WheelsetWarning
 from exudyn_wheelset.results.brief import brief
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.rest import accelerations, find_rest
 
@@ -54,6 +55,7 @@ class StaticEquilibrium:
     pull: float = 0.0
 
 
+@spelt
 def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     """How the vehicle stands: wheel loads, preloads, places of all parts.
 
@@ -80,7 +82,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
             f"is drawn (limit {NOT_AT_REST:g}), and no place of rest was found nearby: check the "
             "play of the flanges (gauge, tape_half_distance) and bodies beside the middle",
             WheelsetWarning,
-            stacklevel=2,
+            stacklevel=3,
         )
     preloads: dict[str, Array] = {}
     moved = (rest.pose - rest.drawn).ravel()
@@ -115,6 +117,7 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     )
 
 
+@spelt
 def with_free_lengths(vehicle: Vehicle) -> Vehicle:
     """The same vehicle described by free lengths: it settles to where it was drawn.
 

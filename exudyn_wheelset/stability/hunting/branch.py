@@ -21,6 +21,7 @@ from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Outcome
 from exudyn_wheelset.results.records import read_record, write_record
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.stability.hunting.branch_plot import draw_branch
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.systems.source import Source
@@ -91,6 +92,7 @@ class StabilityChange(float):
         return super().__new__(cls, speed)
 
 
+@spelt_class
 @brief
 @dataclass(frozen=True, eq=False)
 class Branch:

@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 
 from exudyn_wheelset.errors import AnalysisError
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.stability.hunting.orbit import DEGREE, INTERVALS
 
 
+@spelt_class
 @dataclass(frozen=True)
 class ContinuationSettings:
     """How a branch is followed.

@@ -27,7 +27,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import finite_array, number, positive
+from exudyn_wheelset.checking import finite_array, positive
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.columns import NamedColumns
 from exudyn_wheelset.results.endings import Ending, Outcome
@@ -38,6 +38,7 @@ from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_trucks
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 # A fall to less than a third, to less than a tenth of the scale (0.1 mm), is the end of hunting:
@@ -92,7 +93,7 @@ def quasi_static_descent(
     True
     """
     system = as_system(vehicle)
-    high, low = number("high", high, "m/s"), number("low", low, "m/s")
+    high, low = checked_speed(system, "high", high), checked_speed(system, "low", low)
     step, tolerance = positive("step", step, "m/s"), positive("tolerance", tolerance, "m/s")
     if not low < high:
         raise AnalysisError(

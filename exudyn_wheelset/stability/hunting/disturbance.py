@@ -21,6 +21,7 @@ import numpy as np
 from tqdm import tqdm
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.checking import finite_array, number, positive
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
@@ -31,6 +32,7 @@ from exudyn_wheelset.stability.hunting.descent import mode_disturbance
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 KIND = "disturbance runs"
@@ -147,8 +149,16 @@ def critical_disturbance(
     array([0.3])
     """
     system = as_system(vehicle)
-    values = np.atleast_1d(np.asarray(speeds, dtype=float))
-    smallest = 1e-3 * largest if smallest is None else smallest
+    values = np.atleast_1d(finite_array("speeds", speeds, "m/s"))
+    if values.ndim > 1:
+        raise AnalysisError(f"speeds of the shape {values.shape}: give one number or a list [m/s]")
+    for speed in values:
+        checked_speed(system, "one of speeds", float(speed))
+    largest = positive("largest", largest, "(unit of the disturbed state)")
+    if smallest is None:
+        smallest = 1e-3 * largest
+    smallest = number("smallest", smallest, "(unit of the disturbed state)")
+    tolerance = number("tolerance", tolerance, "-")
     if not 0.0 < smallest < largest or not 0.0 < tolerance < 1.0:
         raise AnalysisError(
             f"smallest = {smallest:g} must lie between 0 and largest = {largest:g}, tolerance = "

@@ -38,6 +38,7 @@ from exudyn_wheelset.stability.hunting.symmetry import mirror_of_mode, mirror_of
 from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_range
 from exudyn_wheelset.systems.system import DynamicSystem
 
 
@@ -76,6 +77,7 @@ def limit_cycles(
     low, high = numbers("speeds (low, high)", speeds, 2, "m/s")
     if not low < high:
         raise AnalysisError(f"speeds = ({low:g}, {high:g}) m/s must be (low, high), low below high")
+    checked_range(system, low, high)
     settings = replace(settings or ContinuationSettings(), **changes)
     begun = time.perf_counter()
     with tqdm(disable=not progress, unit="orbit", desc="limit cycles") as bar:

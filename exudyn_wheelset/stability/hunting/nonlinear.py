@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from exudyn_wheelset.checking import number
+from exudyn_wheelset.checking import positive
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
@@ -41,6 +41,7 @@ from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
@@ -176,7 +177,12 @@ def nonlinear_critical_speed(
         raise AnalysisError(f"method = {method!r} is not one of 'continuation', 'descent'")
     for what, value in (("low", low), ("high", high)):
         if value is not None:
-            number(what, value, "m/s")
+            checked_speed(system, what, value)
+    smallest = positive("smallest", smallest, "times the scale")
+    tolerance = positive("tolerance", tolerance, "m/s")
+    if step is not None:
+        positive("step", step, "m/s")
+    watched_trucks(system, watch)
     if hopf is None:
         hopf = _first_hopf(system, low, high)
     low = 0.4 * hopf.speed if low is None else float(low)

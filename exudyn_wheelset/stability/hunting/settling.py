@@ -33,6 +33,7 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.endings import Ending
+from exudyn_wheelset.spelling import spelt_class
 from exudyn_wheelset.systems.system import DynamicSystem
 
 SAMPLES = 64
@@ -58,6 +59,7 @@ FALLEN = 2e-3
 SHAKEN = 0.1
 
 
+@spelt_class
 @dataclass(frozen=True)
 class Settling:
     """The criterion.

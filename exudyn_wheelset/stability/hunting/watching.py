@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from exudyn_wheelset.checking import whole
 from exudyn_wheelset.results.columns import column_index
 from exudyn_wheelset.stability.linear.linearisation import hunting_mode, linearised
 from exudyn_wheelset.stability.linear.modes import displacements
@@ -39,7 +40,7 @@ def watched_index(system: DynamicSystem, watch: str | int | None = None) -> int:
     if isinstance(watch, str):
         return column_index(system.state_names, watch)
     if watch is not None:
-        return int(watch)
+        return whole("watch (a displacement's name or place)", watch, 0, system.size - 1)
     if system.lateral_indices:
         return system.lateral_indices[0]
     for index in system.displacement_indices:

@@ -34,6 +34,7 @@ from exudyn_wheelset.stability.linear.spectra import (
     Spectra,
 )
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 
 # A window of instability between two speeds of the scan is looked for where the peak of the least
 # damping through three speeds comes this near to zero, as a share of the damping beside it.
@@ -76,8 +77,9 @@ def linear_critical_speed(
     (68.64, 4.0)
     """
     spectra = Spectra(as_system(vehicle))
-    check_range(low, high, points)
+    check_range(spectra.system, low, high, points, tolerance)
     if guess is not None:
+        checked_speed(spectra.system, "guess", guess)
         found = _critical_speed_near(spectra, low, high, guess, tolerance)
         if found is not None:
             _warn(spectra, found)

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import number
+from exudyn_wheelset.checking import positive, whole
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.spelling import spelt
@@ -37,9 +37,15 @@ from exudyn_wheelset.stability.linear.spectra import (
 )
 from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.source import Source
+from exudyn_wheelset.systems.speeds import checked_range
+from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
     from exudyn_wheelset.stability.gradients import Gradient
+
+
+# A scan of a car at so many speeds takes a quarter of an hour.
+MOST_POINTS = 10000
 
 
 @brief
@@ -124,7 +130,7 @@ def stability_changes(
     Raises AnalysisError where the system has no equilibrium.
     """
     spectra = Spectra(as_system(vehicle))
-    check_range(low, high, points)
+    check_range(spectra.system, low, high, points, tolerance)
     speeds = np.linspace(low, high, points)
     found: list[CriticalPoint] = []
     kinds: tuple[Kind, ...] = ("hopf", "divergence")
@@ -171,13 +177,13 @@ def divergence_points(
     return [change for change in changes if change.kind == "divergence"]
 
 
-def check_range(low: float, high: float, points: int) -> None:
-    number("low", low, "m/s")
-    number("high", high, "m/s")
-    if not low < high:
-        raise AnalysisError(f"the range of speeds must rise from low to high, got {low} to {high}")
-    if points < 2:
-        raise AnalysisError(f"a scan needs at least 2 points, got {points}")
+def check_range(
+    system: DynamicSystem, low: float, high: float, points: int, tolerance: float
+) -> None:
+    """Raise WheelsetError for a scan of speeds [m/s] that cannot be made."""
+    lower, upper = checked_range(system, low, high)
+    whole("points", points, 2, MOST_POINTS)
+    positive("tolerance", tolerance, "m/s", upper - lower, "it has to be less than the range")
 
 
 def crossing(

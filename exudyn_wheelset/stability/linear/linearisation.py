@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import number
+from exudyn_wheelset.checking import finite_array
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.spelling import spelt
@@ -31,6 +31,7 @@ from exudyn_wheelset.stability.linear.modes import (
 from exudyn_wheelset.stability.linear.neutral import neutral_name, separated
 from exudyn_wheelset.stability.linear.spectra import Spectra, check_finite, oscillates
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 
@@ -137,8 +138,10 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     True
     """
     system = as_system(vehicle)
-    check_rolls(system, speed)
-    linear = linearised(system, number("speed", speed, "m/s"), guess)
+    speed = checked_speed(system, "speed", speed)
+    if guess is not None:
+        guess = _checked_state(system, guess)
+    linear = linearised(system, speed, guess)
     row = linear.hunting_row
     if row is None:
         return linear
@@ -148,13 +151,13 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
     return replace(linear, law=law)
 
 
-def check_rolls(system: DynamicSystem, speed: float) -> None:
-    """Raise AnalysisError for a vehicle on wheels at rest, whose creepages are not defined."""
-    if number("speed", speed, "m/s") == 0.0 and getattr(system, "wheelsets", False):
+def _checked_state(system: DynamicSystem, state: Any) -> Array:
+    found = finite_array("guess", state, "SI units")
+    if found.shape != (system.size,):
         raise AnalysisError(
-            f"speed = {speed!r} m/s: {system.name} stands on its wheels and has no creepage, slip "
-            "by speed: give a speed other than 0 m/s, such as 1"
+            f"guess of the shape {found.shape}: give the {system.size} states of {system.name}"
         )
+    return found
 
 
 def linearised(system: DynamicSystem, speed: float, guess: Array | None = None) -> Linearisation:
@@ -215,11 +218,10 @@ def root_locus(vehicle: Any, speeds: Sequence[float] | Array) -> RootLocus:
     """
     spectra = Spectra(as_system(vehicle))
     given = list(speeds) if isinstance(speeds, Iterable) else [speeds]
-    speeds = np.array([number("one of speeds", one, "m/s") for one in given])
+    system = spectra.system
+    speeds = np.array([checked_speed(system, "one of speeds", one) for one in given])
     if not len(speeds):
         raise AnalysisError("speeds = []: give one speed [m/s] or more")
-    for speed in speeds:
-        check_rolls(spectra.system, float(speed))
     rows: list[Array] = []
     for index, speed in enumerate(speeds):
         values = spectra.eigenvalues(speed)

@@ -20,7 +20,7 @@ from scipy.stats import beta, norm
 from tqdm import tqdm
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import finite_array, number, numbers, positive
+from exudyn_wheelset.checking import finite_array, number, numbers, positive, whole
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.columns import column_index
@@ -30,6 +30,7 @@ from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
 from exudyn_wheelset.stability.hunting.watching import typical_period, watched_index, watched_trucks
 from exudyn_wheelset.stability.subject import as_system
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
@@ -109,9 +110,12 @@ def basin(
     """
     system = as_system(vehicle)
     values = np.atleast_1d(finite_array("speeds", speeds, "m/s"))
-    for what, value, low in (("samples", samples, 1), ("seed", seed, 0)):
-        if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < low:
-            raise AnalysisError(f"{what} = {value!r}: give a whole number of at least {low}")
+    if values.ndim > 1:
+        raise AnalysisError(f"speeds of the shape {values.shape}: give one number or a list [m/s]")
+    for speed in values:
+        checked_speed(system, "one of speeds", float(speed))
+    whole("samples", samples, 1)
+    whole("seed", seed)
     if not 0.0 < number("confidence", confidence, "-") < 1.0:
         raise AnalysisError(
             f"confidence = {confidence!r}: give a number between 0 and 1, such as 0.95"

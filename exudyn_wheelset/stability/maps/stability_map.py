@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from tqdm import tqdm
 
+from exudyn_wheelset.checking import numbers, whole
 from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.records import describe
@@ -173,12 +174,13 @@ def stability_map(
     """
     if first != "speed":
         raise AnalysisError(f"{first!r}: the first parameter of a map is 'speed'")
-    low, high = map(float, limits)
-    if not low < high or points < 2 or starts < 1:
-        raise AnalysisError(
-            f"limits = ({low:g}, {high:g}), points = {points}, starts = {starts}: give (low, high) "
-            "with low below high, at least two points and one start"
-        )
+    low, high = numbers("limits (low, high)", limits, 2, "unit of the parameter")
+    whole("points", points, 2)
+    whole("starts", starts, 1)
+    whole("most", most, points)
+    whole("branches", branches, 1)
+    if not low < high:
+        raise AnalysisError(f"limits = ({low:g}, {high:g}): give (low, high) with low below high")
     begun = time.perf_counter()
     made = MapMaker(vehicle, parameter, (low, high), progress)
     values = [0.5 * (low + high)] if starts == 1 else np.linspace(low, high, starts).tolist()

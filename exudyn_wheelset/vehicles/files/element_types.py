@@ -12,12 +12,14 @@ from typing import Any
 
 from exudyn_wheelset.checking import unknown
 from exudyn_wheelset.errors import WheelsetError
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles import elements
 from exudyn_wheelset.vehicles.elements.protocol import Element
 
 _REGISTERED: dict[str, type] = {}
 
 
+@spelt
 def register_element(cls: type, name: str | None = None) -> type:
     """Make a class of elements known to vehicle files as `name`; snake_case of its own if left out.
 

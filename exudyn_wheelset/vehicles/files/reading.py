@@ -19,6 +19,7 @@ from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.rail_section import RailSection
 from exudyn_wheelset.errors import VehicleError, WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles.builder import VehicleBuilder
 from exudyn_wheelset.vehicles.description import GROUND, Axle, Body, Load, Vehicle
 from exudyn_wheelset.vehicles.files.converting import (
@@ -49,6 +50,7 @@ PROFILES = {"wheel": "wheel", "right_wheel": "wheel", "rail": "rail", "right_rai
 _LARGEST = 20_000_000
 
 
+@spelt
 def load_vehicle(path: str | os.PathLike[str], *, check: bool = True) -> Vehicle:
     """The vehicle of a TOML file (see vehicles/files), or that a bare name such as "dtu_car" means.
 

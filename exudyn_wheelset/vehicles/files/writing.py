@@ -13,6 +13,7 @@ from exudyn_wheelset.contact.descriptions import Track
 from exudyn_wheelset.errors import VehicleError, WheelsetError
 from exudyn_wheelset.profiles import Profile, load_profile
 from exudyn_wheelset.results.files import write_atomically
+from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles.description import Vehicle
 from exudyn_wheelset.vehicles.files.converting import to_table
 from exudyn_wheelset.vehicles.files.element_types import type_name
@@ -28,6 +29,7 @@ _OWN = {
 }
 
 
+@spelt
 def save_vehicle(vehicle: Vehicle, path: str | os.PathLike[str], *, description: str = "") -> Path:
     """Write a vehicle as a TOML file; return its path.
 
