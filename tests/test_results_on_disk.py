@@ -64,6 +64,8 @@ def test_a_motion_finds_columns_bodies_and_wheels_by_name():
     assert given.wheel("axle", "right")["Y [N]"][-1] == 1e3
     with pytest.raises(AnalysisError, match=r"no 'bogie'; it has frame, axle"):
         given.body("bogie")
+    with pytest.raises(AnalysisError, match=r"0 is no name of a column: give one of"):
+        given[0]
     assert "derailment: a flange has climbed" in repr(given)
     assert len(repr(given)) < 160
     late = given.after(0.45)

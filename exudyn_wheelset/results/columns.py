@@ -48,6 +48,11 @@ def column_index(names: Sequence[str], name: str) -> int:
 
     Raises AnalysisError if no name or more than one fits.
     """
+    if not isinstance(name, str):
+        raise AnalysisError(
+            f"{name!r} is no name of a column: give one of {', '.join(names)}; samples are rows of "
+            "what it gives"
+        )
     if name in names:
         return list(names).index(name)
     for ending in (" [", " "):
