@@ -84,7 +84,24 @@ STEPS = np.array([1e-7, 3e-8, 1e-7, 1e-6])
 SIZES = np.array([1.0, 1.0, 0.75, 0.1])
 
 
+# Where the valley between two lobes fills up, so that the weights of the energies change.
+MERGING = [(5.24e-3, 1.2e-4), (5.29e-3, 1.2e-4), (4.28e-3, 2e-4), (4.46e-3, 2e-4)]
+
+
+@pytest.mark.parametrize(("shift", "depth"), MERGING)
+def test_wrench_is_the_gradient_while_two_lobes_merge(shift, depth):
+    wheelset, track = PAIRS.setdefault("S1002", pair("S1002"))
+    rigid = contact_geometry(wheelset, track, [shift], 5e-3)
+    merging = wheelset, track, np.array([shift, rigid.z[0] - depth, rigid.roll[0], 5e-3])
+    check_gradient(merging)
+    check_torque(merging)
+
+
 def test_wrench_is_minus_the_gradient_of_the_energy(at):
+    check_gradient(at)
+
+
+def check_gradient(at):
     wheelset, track, pose = at
     forces = generalised(wheelset, track, pose)
     load = np.abs(forces[:2]).max()
@@ -98,6 +115,10 @@ def test_wrench_is_minus_the_gradient_of_the_energy(at):
 
 def test_no_torque_about_the_axle(at):
     """Pressure on a surface of revolution: every line of force meets the axle."""
+    check_torque(at)
+
+
+def check_torque(at):
     wheelset, track, pose = at
     _, _, roll, yaw = pose
     axle = [-math.sin(yaw) * math.cos(roll), math.cos(yaw) * math.cos(roll), math.sin(roll)]

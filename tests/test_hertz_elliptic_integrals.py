@@ -13,7 +13,11 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipkm1
 
-from exudyn_wheelset.contact.hertz import hertz_from_approach, hertz_from_load
+from exudyn_wheelset.contact.hertz import (
+    hertz_from_approach,
+    hertz_from_load,
+    shape_and_slopes,
+)
 
 STEEL = {"shear_modulus": 82e9, "poisson": 0.28}
 
@@ -152,3 +156,40 @@ def test_straight_continuation_beyond_the_table(end):
 def test_no_contact():
     assert hertz_from_load(1.0, 1.0, -5.0, **STEEL) == (0.0, 0.0, 0.0, 0.0)
     assert hertz_from_approach(1.0, 1.0, 0.0, **STEEL) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("end", [-40.0, 40.0])
+def test_the_slope_at_the_tables_end_goes_on(end):
+    """Beyond it the logarithms have the slope that differences inside give at the end itself."""
+
+    def values(t):
+        return np.log(hertz_from_load(1.0, math.exp(t), 1e5, **STEEL))
+
+    h = math.copysign(0.02, end)
+    inside = (3.0 * values(end) - 4.0 * values(end - h) + values(end - 2.0 * h)) / (2.0 * h)
+    outside = (values(end + 50.0 * h) - values(end)) / (50.0 * h)
+    # Third derivatives there are about 2/t^3; rounding of logarithms over the step.
+    np.testing.assert_allclose(outside, inside, atol=3e-8)
+
+
+@pytest.mark.parametrize("t", [-47.3, -39.93, -7.07, -0.03, 0.41, 3.33, 12.01, 39.93, 44.4])
+def test_shape_functions_and_their_slopes(t):
+    """The logarithms of results for A + B alike, and their difference quotients over t."""
+
+    def shapes(x):
+        ratio = math.exp(x)
+        A, B = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)
+        a, b, approach, _ = hertz_from_load(A, B, 1e5, **STEEL)
+        circle, _, flat, _ = hertz_from_load(0.5, 0.5, 1e5, **STEEL)
+        return np.log([a / circle, b / circle, approach / flat])
+
+    found = np.array(shape_and_slopes(t))
+    np.testing.assert_allclose(found[:3], shapes(t), atol=1e-12)
+    step = 0.01
+    slopes = (shapes(t + step) - shapes(t - step)) / (2.0 * step)
+    np.testing.assert_allclose(found[3:6], slopes, atol=2e-6)
+    if abs(t) < 40.0:
+        bends = (
+            np.array(shape_and_slopes(t + step)[3:5]) - np.array(shape_and_slopes(t - step)[3:5])
+        ) / (2.0 * step)
+        np.testing.assert_allclose(found[6:], bends, atol=1e-4 * (1.0 + 10.0 * (abs(t) < 5.0)))

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from exudyn_wheelset.creep import kalker_coefficients
-from exudyn_wheelset.creep.kalker import kalker_asymptotes
+from exudyn_wheelset.creep.kalker import ASYMPTOTE_BEGIN, TABLE_END, kalker_asymptotes
 
 with (FOLDER / "kalker_coefficients.csv").open() as _file:
     ROWS = list(csv.DictReader(_file))
@@ -88,3 +88,35 @@ def test_positive_and_free_of_scale(ratio, poisson, size):
     assert all(np.isfinite(coefficients))
     assert min(coefficients) > 0.0
     np.testing.assert_allclose(kalker_coefficients(ratio * size, size, poisson), coefficients, 1e-9)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.28, 0.5])
+@pytest.mark.parametrize("wide", [True, False])
+def test_asymptotes_are_blended_into_the_table_without_a_corner(wide, poisson):
+    """A share of the ratio at the table's end: 0 to 1, symmetric, flat at both of its ends."""
+
+    def ratio(g):
+        return g if wide else 1.0 / g
+
+    def over_asymptotes(g):
+        exact = kalker_asymptotes(ratio(g), poisson)
+        return np.array(kalker_coefficients(ratio(g), 1.0, poisson)) / exact - 1.0
+
+    whole = over_asymptotes(TABLE_END * (1.0 + 1e-12))
+    width = TABLE_END - ASYMPTOTE_BEGIN
+    shares = [over_asymptotes(ASYMPTOTE_BEGIN + u * width) / whole for u in np.linspace(0, 1, 11)]
+    np.testing.assert_allclose(np.add(shares, shares[::-1]), 1.0, atol=1e-6)
+    assert np.all(np.diff(shares, axis=0) > 0.0)
+    ends = [over_asymptotes(ASYMPTOTE_BEGIN + u * width) / whole for u in (1e-3, 1.0 - 1e-3)]
+    np.testing.assert_allclose(ends, [[0.0] * 4, [1.0] * 4], atol=1e-5)
+
+
+def test_positions_between_three_tables_of_poisson():
+    """1/C is a parabola in nu at every place of the table, not at its nodes alone."""
+    rng = np.random.default_rng(6)
+    for ratio in np.exp(rng.uniform(-2.2, 2.2, 12)):
+        inverse = [1.0 / np.array(kalker_coefficients(ratio, 1.0, nu)) for nu in (0.0, 0.25, 0.5)]
+        for poisson in (0.1, 0.4):
+            parabola = np.polyfit([0.0, 0.25, 0.5], inverse, 2)
+            expected = 1.0 / (parabola[0] * poisson**2 + parabola[1] * poisson + parabola[2])
+            np.testing.assert_allclose(kalker_coefficients(ratio, 1.0, poisson), expected, 1e-9)

@@ -24,11 +24,17 @@ from exudyn_wheelset.contact.layout import (
     GAP_SECOND,
     GAP_THIRD,
     HEADER,
+    LINE_BEND,
+    LINE_TANGENT_Y,
+    LINE_TANGENT_Z,
+    LINE_Y,
+    LINE_Z,
     LOAD,
     LOBE,
     RESULT,
     SIDE,
     Axle,
+    block_row,
     new_result,
 )
 from exudyn_wheelset.contact.tables import contact_tables
@@ -387,3 +393,30 @@ def test_a_load_that_has_nothing_to_carry_is_taken_out():
     assert found == 1
     expected = plain(energy.stationary)(TABLE, LEFT, alone, 1, MODULUS, work)[1]
     assert total == pytest.approx(expected, rel=1e-6)
+
+
+def test_lines_follow_the_rail_and_go_on_straight_beyond_it():
+    """Unit tangents, points a spacing apart along them, curvature of the turning tangent."""
+    y, z, along_y, along_z, bend = (
+        block_row(TABLE, LEFT.lines, row)
+        for row in (LINE_Y, LINE_Z, LINE_TANGENT_Y, LINE_TANGENT_Z, LINE_BEND)
+    )
+    spacing = LEFT.line_spacing
+    # Chords are h^2/24 of curvature squared short, on arcs of 13 mm and more; where arcs meet a
+    # mean of tangents is h/8 of the change of curvature off.
+    np.testing.assert_allclose(np.hypot(np.diff(y), np.diff(z)), spacing, rtol=2e-5)
+    np.testing.assert_allclose(np.hypot(along_y, along_z), 1.0, rtol=1e-4)
+    middle = 0.5 * (along_y[1:] + along_y[:-1]), 0.5 * (along_z[1:] + along_z[:-1])
+    np.testing.assert_allclose(np.diff(y) / spacing, middle[0], atol=2e-3)
+    np.testing.assert_allclose(np.diff(z) / spacing, middle[1], atol=2e-3)
+    turning = np.diff(np.unwrap(np.arctan2(along_z, along_y))) / spacing
+    mean = 0.5 * (bend[1:] + bend[:-1])
+    assert np.median(np.abs(turning - mean)) < 0.05
+    for end in (slice(0, 20), slice(-20, None)):
+        assert np.all(bend[end] == 0.0)
+        np.testing.assert_allclose(np.diff(along_z[end]), 0.0, atol=1e-12)
+    for k in (30, 200, -30):
+        at = LEFT.line_start + (k % len(y)) * spacing
+        ry, r1, _, rz, q1, _ = plain(curve_point)(TABLE, LEFT.rail, at)
+        found = y[k], z[k], along_y[k], along_z[k]
+        np.testing.assert_allclose(found, (ry, rz, r1, q1), atol=1e-12)

@@ -89,7 +89,7 @@ UPPER_GROUPS = {
     ),
     "connection-kernel": Group(
         _under("vehicles", "kernel frames friction_kernel links"),
-        ("test_drawn_links.py", *_ELEMENT_TESTS),
+        ("test_pieces_of_the_connections.py", "test_drawn_links.py", *_ELEMENT_TESTS),
         compiled=False,
         deselected="complex_stiffness or tables_are or loop_of or loading_and_unloading[600000",
     ),
