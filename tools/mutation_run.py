@@ -213,7 +213,7 @@ def _test_here(copy: Path, group: Group, cache: Path) -> int:
     sys.path[:0] = [str(copy), str(copy / "tests")]
     numba.config.CACHE_DIR = str(cache)
     numba.config.DISABLE_JIT = 0 if group.compiled else 1
-    options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:randomly"]
+    options = ["-x", "-q", "-n0", "-p", "no:cacheprovider", "-p", "no:randomly"]
     if group.deselected:
         options += ["-k", f"not ({group.deselected})"]
     tests = [str(copy / "tests" / name) for name in group.tests]
