@@ -2,12 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from exudyn_wheelset import creep_force
-from exudyn_wheelset.contact.strip_creep import march
+from exudyn_wheelset.contact.layout import PARAMETERS, PATCH, SHARE
+from exudyn_wheelset.contact.strip_creep import _patch_flexibilities, march
 from exudyn_wheelset.creep import kalker_coefficients
-from exudyn_wheelset.creep.fastsim import slip_step
+from exudyn_wheelset.creep.fastsim import flexibilities, slip_step
 from exudyn_wheelset.creep.saturation import (
     cubic_share,
     linear_force,
@@ -144,3 +146,31 @@ def test_a_step_that_meets_the_bound(start):
         pytest.approx(expected[0], abs=0.015 * start[-1]),
         pytest.approx(expected[1], abs=0.015 * start[-1]),
     )
+
+
+@pytest.mark.parametrize("kind", [1.0, 2.0, 3.0])
+def test_flexibilities_while_two_lobes_merge(kind):
+    """Those of either ellipse with its own load, and in between in proportion to the separation."""
+    share, patch, parameters = (np.zeros(1, record)[0] for record in (SHARE, PATCH, PARAMETERS))
+    patch.creep_x, patch.creep_y, patch.spin, patch.friction = 1e-3, -2e-3, 0.1, 0.3
+    share.damping = 1.2
+    share.own.force, share.own.a, share.own.b = 3e4, 5e-3, 3e-3
+    share.merged.force, share.merged.a, share.merged.b = 7e4, 6e-3, 9e-3
+    parameters.shear_modulus, parameters.poisson = MODULUS, POISSON
+    parameters.law_parameters[2] = kind
+
+    def at(separation):
+        share.separation = separation
+        return np.array(plain(_patch_flexibilities)(share, patch, parameters))
+
+    def of(ellipse):
+        limit = 0.3 * 1.2 * ellipse.force
+        return np.array(
+            plain(flexibilities)(
+                1e-3, -2e-3, 0.1, ellipse.a, ellipse.b, limit, MODULUS, POISSON, kind
+            )
+        )  # fmt: skip
+
+    np.testing.assert_allclose(at(1.0), of(share.own), rtol=1e-12)
+    np.testing.assert_allclose(at(0.0), of(share.merged), rtol=1e-12)
+    np.testing.assert_allclose(at(0.3), 0.3 * at(1.0) + 0.7 * at(0.0), rtol=1e-12)
