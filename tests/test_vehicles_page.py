@@ -1,9 +1,11 @@
-"""The page docs/vehicles.md: its code runs as it stands."""
+"""The page docs/vehicles.md: its code runs as it stands, its critical speeds are those of now."""
 
 import re
 from pathlib import Path
 
 import pytest
+
+from exudyn_wheelset import catalogue, linear_critical_speed
 
 PAGE = Path(__file__).parents[1] / "docs" / "vehicles.md"
 
@@ -20,3 +22,17 @@ def test_the_wagon_of_the_page(capsys):
     assert (left, right) == pytest.approx((weight / 4, weight / 4), rel=1e-6)
     softer = names["softer"].connections
     assert [one.element.stiffness[1] for one in softer if "spring" in one.name] == [0.3e6] * 4
+
+
+@pytest.mark.filterwarnings("ignore::exudyn_wheelset.WheelsetWarning")
+@pytest.mark.parametrize(
+    "name", ["dtu_car", "manchester_coach", "cooperrider_bogie_3d", "three_axle_truck"]
+)
+def test_law_and_critical_speed_of_the_table(name):
+    row = next(r for r in PAGE.read_text("utf-8").splitlines() if r.startswith(f"| `{name}`"))
+    law, said = (cell.strip() for cell in row.strip("|").split("|")[-2:])
+    speed, frequency = map(float, re.match(r"([\d.]+) m/s, ([\d.]+) Hz", said).groups())
+    vehicle = catalogue.vehicle(name)
+    found = linear_critical_speed(vehicle, *catalogue.entry(name).searched)
+    assert law == f"`{vehicle.contact.creep}`"
+    assert (found.speed, found.frequency) == pytest.approx((speed, frequency), abs=0.02)
