@@ -5,6 +5,8 @@ V = 3/4, the Hopf point at V = 1; below it the straight run draws in what is sma
 r^2 = 1/2 - sqrt(V - 3/4).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,7 @@ from exudyn_wheelset import (
     nonlinear_critical_speed,
 )
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
-from exudyn_wheelset.stability.hunting.nonlinear import SHORT
+from exudyn_wheelset.stability.hunting.simulated_stability import SHORT, simulated_below
 
 FOLD, HOPF = 0.75, 1.0
 
@@ -62,3 +64,24 @@ def test_hunting_is_looked_for_from_orbits_that_are_known_above():
     radius = np.sqrt(0.5 + np.sqrt(0.85 - FOLD))
     assert motion.means[-1] == pytest.approx(radius, rel=5e-3)
     assert hunting_at(system, 0.7, SHORT, 0.1, [orbit]) is None
+
+
+def test_starts_that_are_lost_are_told_of():
+    lost = []
+    assert hunting_at(fold_system(1e-2, reach=0.08), 0.85, SHORT, 0.1, (), lost) is None
+    assert [words.split(" ends in ")[0] for words in lost] == ["the hunting mode, 10 scales large"]
+    assert "derailment at 0.85 m/s" in lost[0]
+
+
+def test_motion_decides_where_the_stability_of_orbits_is_uncertain():
+    """Upper orbits are stable and lower ones are not, by the equations above."""
+    system = fold_system(1e-2)
+    branch = limit_cycles(system, [1.2, 0.0], (0.7, 0.99), start_speed=0.95)
+    upper = np.hypot(*branch.states.T) > np.sqrt(0.5)
+    between = (branch.speed > 0.8) & (branch.speed < 0.95)
+    open_ones = replace(branch, stable=branch.stable & ~between, uncertain=between)
+    lowest = branch.speed[upper & between].min()
+    speed, what = simulated_below(system, open_ones, 0.96, 0.1)
+    assert speed == lowest and "on which simulated motion stays" in what
+    only_lower = replace(open_ones, uncertain=between & ~upper)
+    assert only_lower.uncertain.any() and simulated_below(system, only_lower, 0.96, 0.1) is None

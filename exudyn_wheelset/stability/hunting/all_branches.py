@@ -23,9 +23,9 @@ from exudyn_wheelset.stability.hunting.continuation_settings import Continuation
 from exudyn_wheelset.stability.hunting.diagram import Diagram
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.nonlinear import SHORT
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
+from exudyn_wheelset.stability.hunting.simulated_stability import SHORT
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.stability.linear.modes import is_lateral
 from exudyn_wheelset.stability.subject import as_system

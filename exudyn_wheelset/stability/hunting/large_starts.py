@@ -11,8 +11,8 @@ starts from its equilibrium with
 - an orbit that is known at a higher speed: hunting that goes on where the branch of that orbit ends
   or loses its stability, in another shape, lives where no motion from rest may lead.
 
-Starts from which the vehicle derails are passed over. Displacements in scales (millimetres),
-velocities in m/s.
+Starts from which the vehicle derails are passed over, and told of. Displacements in scales
+(millimetres), velocities in m/s.
 """
 
 from __future__ import annotations
@@ -76,12 +76,15 @@ def hunting_at(
     settling: Settling,
     smallest: float,
     orbits: Sequence[Orbit] = (),
+    lost: list[str] | None = None,
 ) -> tuple[str, WatchedMotion] | None:
     """The first large start whose motion goes on hunting, and that motion; None if none does.
 
     smallest: amplitude, in scales, from which a motion is called hunting; orbits: whose motions,
-    brought to the speed [m/s], are starts as well, the first ones.
+    brought to the speed [m/s], are starts as well, the first ones; lost: takes in words the starts
+    from which the vehicle derails.
     """
+    lost = [] if lost is None else lost
     watched = watched_trucks(system)
     try:
         period = typical_period(system, speed)
@@ -93,13 +96,18 @@ def hunting_at(
             for orbit in orbits
         ]
         starts = [*slowed, *large_starts(system, speed)]
-    except AnalysisError:
+    except AnalysisError as error:
+        lost.append(f"none could be tried at {speed:.4g} m/s: {error}")
         return None
     settling = replace(settling, rest=max(settling.rest, smallest))
     system = system.rough()
     for words, state in starts:
         motion = WatchedMotion(system, speed, state, period, watched, settling)
-        if motion.decide() in (Ending.DIED_OUT, Ending.CONTACT_LOST):
+        verdict = motion.decide()
+        if verdict is Ending.CONTACT_LOST:
+            hunted = f" after hunting for {motion.time:.2g} s" if motion.cycles else ""
+            lost.append(f"{words} ends in {verdict.sentence} at {speed:.4g} m/s{hunted}")
+        if verdict in (Ending.DIED_OUT, Ending.CONTACT_LOST):
             continue
         sizes = motion.truck_amplitudes()
         if any(sizes[k] >= smallest * system.scales[index] for k, index in watched.items()):

@@ -36,7 +36,12 @@ from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.orbit import Orbit
-from exudyn_wheelset.stability.hunting.settling import Settling, WatchedMotion
+from exudyn_wheelset.stability.hunting.settling import Settling
+from exudyn_wheelset.stability.hunting.simulated_stability import (
+    SHORT,
+    simulated_below,
+    simulated_fold,
+)
 from exudyn_wheelset.stability.hunting.watching import watched_trucks
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import ALONE, truck_motion
@@ -68,10 +73,10 @@ SMALL, CLOSE = 1.0, 1.03
 CHECKED, MOST_BRANCHES = (0.985, 0.93, 0.85), 3
 # Orbits up to this multiple of the answer are slowed down to those speeds.
 NEAR = 1.05
+# Of starts that derail so many are told.
+TOLD = 3
 # Amplitude, in scales (millimetres), from which a cycle is called hunting.
 SMALLEST = 0.1
-# Criterion of the large starts and of the simulated check beside a fold.
-SHORT = Settling(tolerance=5e-3, cycles=150)
 
 
 class NoLimitCycleError(AnalysisError):
@@ -268,10 +273,13 @@ def _by_continuation(
     if speed <= speeds[0] + 1e-6 * (speeds[1] - speeds[0]):
         message = f"hunting has no lowest speed within {speeds[0]:g} to {speeds[1]:g} m/s"
         raise NoLimitCycleError("; ".join([message, *remarks]), branches[0])
-    fold = _simulated_fold(system, branch, speed)
+    fold = simulated_fold(system, branch, speed)
     if fold is not None:
         speed, what = fold, "the fold of the limit cycle, beside which simulated motion stays"
     kept = _sensitive(system, branch, speed)
+    stays = simulated_below(system, branch, speed, smallest)
+    if stays is not None:
+        speed, what = stays
     place = "from the Hopf point" if branch is branches[0] else "from a motion that hunts"
     means = "collocation and pseudo-arclength continuation"
     if branch.method != "continuation":
@@ -333,28 +341,6 @@ def _lowest(
     return min(found, key=lambda entry: entry[0]) if found else None
 
 
-def _simulated_fold(system: DynamicSystem, branch: Branch, speed: float) -> float | None:
-    """The lowest fold below `speed` beside which simulated motion stays on a cycle.
-
-    Multipliers may leave the stability next to a fold open; a motion from the orbit decides.
-    """
-    watched = watched_trucks(system)
-    for fold in sorted(branch.folds):
-        if fold >= speed or fold.side != "lowest":
-            continue
-        for index in (fold.index + 1, fold.index - 1):
-            if not 0 <= index < len(branch) or not branch.uncertain[index]:
-                continue
-            orbit = branch.orbits[index]
-            motion = WatchedMotion(
-                system, orbit.speed, orbit.states[0], orbit.period, watched, SHORT
-            )
-            before = max(float(orbit.half_peak_to_peak()[place]) for place in watched.values())
-            if motion.decide() is Ending.SETTLED and motion.means[-1] > 0.8 * before:
-                return float(fold)
-    return None
-
-
 def _hunting_below(
     system: DynamicSystem,
     answer: float,
@@ -364,13 +350,14 @@ def _hunting_below(
     settings: ContinuationSettings | None,
 ) -> tuple[Branch | None, list[str]]:
     """The branch through a motion that hunts below the answer [m/s], if any; what was checked."""
-    tried = []
+    tried: list[str] = []
+    lost: list[str] = []
     for share in CHECKED:
         speed = speeds[0] + share * (answer - speeds[0]) if answer <= 0.0 else share * answer
         if not speeds[0] < speed < answer:
             continue
         tried.append(f"{speed:.4g}")
-        hunting = hunting_at(system, speed, SHORT, smallest, orbits)
+        hunting = hunting_at(system, speed, SHORT, smallest, orbits, lost)
         if hunting is None:
             continue
         words, motion = hunting
@@ -383,7 +370,11 @@ def _hunting_below(
             return None, [f"{said}; it could not be made an orbit: {error}"]
         return branch, [said]
     where = f"{', '.join(tried)} m/s" if tried else "no speed: the range ends there"
-    return None, [f"checked from large starts at {where}: none hunts"]
+    remarks = [f"checked from large starts at {where}: none hunts"]
+    if lost:
+        more = f", and {len(lost) - TOLD} others" if len(lost) > TOLD else ""
+        remarks.append(f"{', '.join(lost[:TOLD])}{more}")
+    return None, remarks
 
 
 def _orbits_above(branches: Sequence[Branch], answer: float) -> list[Orbit]:
