@@ -22,6 +22,8 @@ from exudyn_wheelset import AnalysisError, all_branches
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch_switching import switch_branch
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.orbit import orbit_from_samples
+from exudyn_wheelset.stability.hunting.same_branch import is_known, lies_on
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.function_system import FunctionSystem
 
@@ -299,3 +301,27 @@ def test_impact_oscillator_grazes_and_strikes():
         expected = np.append(pieces(force)[2], circle)
         order = np.argsort(-np.abs(expected), kind="stable")
         np.testing.assert_allclose(np.abs(found), np.abs(expected[order]), rtol=1e-3, atol=1e-3)
+
+
+def test_orbits_of_a_branch_lie_on_it_and_those_beside_it_do_not():
+    """Cycles of the Hopf normal form, r^2 = mu: between the branch's points, and before its first;
+    with other amplitudes at the same speed they lie elsewhere."""
+
+    def rates(x, mu):
+        growth = mu - x[0] ** 2 - x[1] ** 2
+        return np.array([growth * x[0] - 3.0 * x[1], 3.0 * x[0] + growth * x[1]])
+
+    system = FunctionSystem("normal form", rates, ("y", "v"), (1.0, 1.0))
+    (hopf,) = hopf_points(system, -0.5, 0.5)
+    branch = limit_cycles(system, hopf, (-0.5, 0.5))
+    phases = np.linspace(0.0, 2.0 * np.pi, 121)
+    for speed in (1e-3 * branch.speed[0], 0.111, 0.3):
+        for size, known in ((1.0, True), (0.9, False), (1.1, False)):
+            radius = size * np.sqrt(speed)
+            states = radius * np.column_stack([np.cos(phases), np.sin(phases)])
+            orbit = orbit_from_samples(states, 2.0 * np.pi / 3.0, speed, 30)
+            if speed > branch.speed[0]:
+                assert lies_on(system, branch, orbit) is known
+            elif known:
+                assert lies_on(system, branch, orbit)
+    assert is_known(system, [branch], branch) and not is_known(system, [], branch)

@@ -23,7 +23,7 @@ from exudyn_wheelset.stability.hunting.continuation_settings import Continuation
 from exudyn_wheelset.stability.hunting.diagram import Diagram
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
-from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.stability.hunting.same_branch import is_known, lies_on
 from exudyn_wheelset.stability.hunting.settled_orbit import orbit_near
 from exudyn_wheelset.stability.hunting.simulated_stability import SHORT
 from exudyn_wheelset.stability.linear.crossings import hopf_points
@@ -31,8 +31,6 @@ from exudyn_wheelset.stability.linear.modes import is_lateral
 from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.system import DynamicSystem
 
-# An orbit lies on a branch whose amplitudes there are within this share of its own.
-SAME = 0.02
 # Motions smaller than this, in scales, are not called hunting.
 SMALLEST = 0.1
 
@@ -82,7 +80,7 @@ def all_branches(
         except WheelsetError as error:
             failures.append(f"from {point.speed:.4f} m/s: {error}")
             continue
-        if not _known(branches, branch.orbits[len(branch) // 2]):
+        if not is_known(system, branches, branch):
             branches.append(_named(branch, f"Hopf point at {point.speed:.4f} m/s"))
     for branch in list(branches) if switch else ():
         for change in branch.changes:
@@ -93,7 +91,7 @@ def all_branches(
             except WheelsetError as error:
                 failures.append(f"{change.kind} at {change.speed:.4f} m/s: {error}")
                 continue
-            if not _known(branches, other.orbits[len(other) // 2]):
+            if not is_known(system, branches, other):
                 branches.append(_named(other, f"{change.kind} at {other.record['leaves_at']:.4f}"))
     hunting = [(float(speed), np.asarray(state, dtype=float)) for speed, state in starts]
     for speed in large_starts_at:
@@ -102,7 +100,8 @@ def all_branches(
             hunting.append((float(speed), found[1].state))
     for speed, state in hunting:
         try:
-            if _known(branches, orbit_near(system, state, speed)):
+            orbit = orbit_near(system, state, speed)
+            if any(lies_on(system, known, orbit) for known in branches):
                 continue
             branch = limit_cycles(system, state, speeds, start_speed=speed, settings=settings)
         except WheelsetError as error:
@@ -126,23 +125,3 @@ def _counts(system: DynamicSystem, mode: Array) -> bool:
 
 def _named(branch: Branch, begins: str) -> Branch:
     return replace(branch, record={**branch.record, "begins": begins})
-
-
-def _known(branches: Sequence[Branch], orbit: Orbit) -> bool:
-    """Whether an orbit, or its mirror image, lies on one of the branches."""
-    sizes = orbit.half_peak_to_peak()
-    for branch in branches:
-        for index in range(len(branch) - 1):
-            near = branch.orbits[index : index + 2]
-            low, high = sorted((near[0].speed, near[1].speed))
-            if not low <= orbit.speed <= high or high == low:
-                continue
-            share = (orbit.speed - near[0].speed) / (near[1].speed - near[0].speed)
-            ends = [one.half_peak_to_peak() for one in near]
-            expected = (1.0 - share) * ends[0] + share * ends[1]
-            period = (1.0 - share) * near[0].period + share * near[1].period
-            apart = np.abs(sizes - expected).max() / max(float(expected.max()), 1e-300)
-            step = np.abs(ends[1] - ends[0]).max() / max(float(expected.max()), 1e-300)
-            if apart < max(SAME, 0.25 * step) and abs(orbit.period / period - 1.0) < 10.0 * SAME:
-                return True
-    return False

@@ -33,6 +33,8 @@ from exudyn_wheelset.stability.hunting.folds import parts
 from exudyn_wheelset.stability.hunting.limit_cycles import gather
 from exudyn_wheelset.stability.hunting.orbit import Orbit, OrbitError
 from exudyn_wheelset.stability.hunting.orbit_kernels import weighed
+from exudyn_wheelset.stability.hunting.same_branch import lies_on
+from exudyn_wheelset.stability.hunting.symmetry import mirror_of_orbit
 from exudyn_wheelset.stability.subject import as_system
 from exudyn_wheelset.systems.system import DynamicSystem
 
@@ -101,6 +103,7 @@ def switch_branch(
     row = _covariance(equations, orbit, direction)
     size = equations.size(orbit)
     failure = "Newton's method came back to the branch"
+    symmetric = sign > 0.0 and mirror_of_orbit(system, orbit) is not None
     for step in STEPS:
         guess = equations.moved(orbit, direction, step * size)
         try:
@@ -110,6 +113,13 @@ def switch_branch(
             continue
         away = row(*parts(equations.difference(first, orbit)))
         if away < 0.5 * step * size or not 0.5 < equations.size(first) / size < 2.0:
+            continue
+        # Newton's method may find the branch itself, farther on.
+        if (
+            symmetric
+            and mirror_of_orbit(system, first) is not None
+            and lies_on(system, branch, first)
+        ):
             continue
         points, outcome = follow(equations, first, direction, (low, high), settings)
         record = describe(system, "branch switching", {**settings.record(), "speeds": [low, high]})

@@ -13,10 +13,13 @@ import numpy as np
 from exudyn_wheelset.arrays import Array
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
 from exudyn_wheelset.results.columns import NamedColumns
+from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.stability.hunting.branch import Fold
 from exudyn_wheelset.stability.hunting.continuation_settings import ContinuationSettings
 from exudyn_wheelset.stability.hunting.fold_points import fold_near, prepared
+from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.simulated_stability import SHORT
 from exudyn_wheelset.stability.hunting.watching import watched_index
 from exudyn_wheelset.stability.linear.crossings import CriticalPoint, hopf_points
 from exudyn_wheelset.stability.linear.modes import is_lateral
@@ -29,9 +32,16 @@ from exudyn_wheelset.systems.system import DynamicSystem
 
 # Speeds looked at by default, in Hopf speeds.
 RANGE = (0.4, 1.3)
+# A diagram may rise to this multiple of its Hopf point's speed before it turns back to the flange:
+# that of the S1002 wheelset at a friction of 0.5 rises to 1.30.
+REACH = 1.4
 # A fold or Hopf point lies on a curve if it is this near to it, relative to its speed; folds of
 # S1002 wheelsets come as near as 1e-3 to each other, but at other amplitudes.
 SAME_SPEED, SAME_AMPLITUDE = 2e-3, 0.05
+# How a branch ends that was followed as far as asked for.
+WHOLE = (Ending.UPPER_END, Ending.LOWER_END, Ending.CLOSED)
+# Hunting that no branch has reached is looked for at this multiple of the Hopf point's speed.
+BESIDE = 1.05
 
 
 class MapMaker:
@@ -186,15 +196,41 @@ class MapMaker:
         for start in [s for s in sorted(starts) if s.direction == "loses stability"][:branches]:
             speeds = (
                 max(self.speeds[0], RANGE[0] * start.speed),
-                min(self.speeds[1], RANGE[1] * start.speed),
+                min(self.speeds[1], REACH * start.speed),
             )
             if not speeds[0] < start.speed < speeds[1]:
                 continue
             try:
-                folds += limit_cycles(system, start, speeds, settings=settings).folds
+                branch = limit_cycles(system, start, speeds, settings=settings)
+                folds += branch.folds
+                if branch.outcome.ending not in WHOLE:
+                    folds += self._folds_of_hunting(system, start.speed, speeds, settings)
             except WheelsetError as error:
                 self.remarks.append(f"branch at {start.speed:.4f} m/s: {error}")
         return folds
+
+    def _folds_of_hunting(
+        self,
+        system: DynamicSystem,
+        hopf: float,
+        speeds: tuple[float, float],
+        settings: ContinuationSettings | None,
+    ) -> list[Fold]:
+        """Folds of the branch through a motion that hunts beside a Hopf point [m/s].
+
+        A branch from the Hopf point that is lost between tread and flange does not tell of what
+        lies on the flange; a large disturbance does.
+        """
+        from exudyn_wheelset.stability.hunting.nonlinear import SMALLEST
+
+        speed = min(BESIDE * hopf, speeds[1])
+        hunting = hunting_at(system, speed, SHORT, SMALLEST)
+        if hunting is None:
+            return []
+        branch = limit_cycles(
+            system, hunting[1].state, speeds, start_speed=speed, settings=settings
+        )
+        return branch.folds
 
     def _fold_curve(self, places: list[FoldPlace], ends: tuple[str, str]) -> Curve:
         system = self.family(places[0].parameter)
