@@ -7,7 +7,8 @@
 Mutants (mutants.py) are drawn evenly over all places of a folder. Where a line runs as Python, the
 tests that run it are known from the coverage (dynamic_context = test_function): the quickest of
 them are run, up to SECONDS. Kernels leave no trace there: theirs are the groups of mutation_run.py.
-Results, with the seed of each, go to --results; --table prints the score of every draw.
+Results, with the seed of each, go to --results (and the tables to docs/mutation.md); --again runs
+the survivors once more and notes under "since" the test that notices now.
 """
 
 from __future__ import annotations
@@ -105,16 +106,39 @@ def groups_of(module: str) -> list[Group]:
     return [replace(group) for group in GROUPS.values() if module in group.modules]
 
 
-def drawn(folder: str, count: int, seed: int) -> list[Mutant]:
-    """`count` mutants of all modules in a folder, drawn by the seed."""
+def survivors(folder: str, seed: int, results: dict) -> list[tuple[str, Mutant]]:
+    """Mutants of a draw that nothing has noticed, where their lines are still there."""
+    found = []
+    for key, entry in results.items():
+        if (entry["folder"], entry["seed"], entry["status"]) != (folder, seed, "survived"):
+            continue
+        for mutant in mutants_of(entry["module"]):
+            source = (REPOSITORY / PACKAGE / mutant.module).read_text(encoding="utf-8")
+            same = all(getattr(mutant, n) == entry[n] for n in ("column", "before", "after"))
+            if same and source.splitlines()[mutant.line - 1].strip() == entry["source"]:
+                found.append((key, mutant))
+                break
+    return found
+
+
+def drawn(folder: str, arguments: argparse.Namespace) -> list[Mutant]:
+    """Mutants of all modules in a folder, drawn by the seed."""
     paths = sorted((REPOSITORY / PACKAGE / folder).rglob("*.py"))
     names = [path.relative_to(REPOSITORY / PACKAGE).as_posix() for path in paths]
     places = [mutant for name in names if name not in DISPLAY for mutant in mutants_of(name)]
-    return random.Random(seed).sample(places, min(count, len(places)))
+    count = min(arguments.count, len(places))
+    return random.Random(arguments.seed).sample(places, count)
 
 
-def run_draw(folder: str, count: int, seed: int, lines: Coverage, results: dict, file: Path):
-    """Run the mutants of a draw that are not in the results yet."""
+def run_draw(
+    folder: str,
+    seed: int,
+    pending: list[tuple[str, Mutant]],
+    lines: Coverage,
+    results: dict,
+    file: Path,
+) -> None:
+    """Run mutants by their keys in the results; write the file after each."""
     with tempfile.TemporaryDirectory() as place:
         copy, cache = Path(place, "repository"), Path(place, "kernels")
         _seed(cache)
@@ -124,10 +148,7 @@ def run_draw(folder: str, count: int, seed: int, lines: Coverage, results: dict,
         if shared.exists():
             Path(place, "shared").symlink_to(shared.resolve())
         standing: dict[str, bool] = {}
-        for mutant in drawn(folder, count, seed):
-            key = f"{seed} {mutant.key}"
-            if key in results:
-                continue
+        for key, mutant in pending:
             path = copy / PACKAGE / mutant.module
             source = path.read_text(encoding="utf-8")
             tests = lines.tests_of(mutant, source)
@@ -149,10 +170,13 @@ def run_draw(folder: str, count: int, seed: int, lines: Coverage, results: dict,
                 outcome = "no test"
             status = "survived" if outcome in ("passed", "no test") else "killed"
             line = source.splitlines()[mutant.line - 1].strip()
-            results[key] = {
-                **asdict(mutant), "folder": folder, "seed": seed, "status": status,
-                "how": outcome, "by": by, "seconds": round(spent, 1), "source": line,
-            }  # fmt: skip
+            if key in results:
+                results[key]["since"] = f"`{by}`" if status == "killed" else ""
+            else:
+                results[key] = {
+                    **asdict(mutant), "folder": folder, "seed": seed, "status": status,
+                    "how": outcome, "by": by, "seconds": round(spent, 1), "source": line,
+                }  # fmt: skip
             file.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
             print(f"  {status:9s}{spent:6.1f} s {outcome:8s}{mutant.key}   | {line}", flush=True)
 
@@ -173,20 +197,21 @@ def _stands(copy: Path, by: str, stage: Group, cache: Path, standing: dict[str, 
 
 def table(results: dict) -> str:
     """Score of every draw, then the survivors."""
-    rows = ["| folder | seed | drawn | killed | equivalent | score | without equivalents |"]
-    rows += ["|---|---|---|---|---|---|---|"]
+    rows = ["| folder | seed | drawn | killed | equivalent | score | without these | since |"]
+    rows += ["|---|---|---|---|---|---|---|---|"]
     draws = sorted({(e["folder"], e["seed"]) for e in results.values()})
     for folder, seed in draws:
         mine = [e for e in results.values() if (e["folder"], e["seed"]) == (folder, seed)]
         killed = sum(e["status"] == "killed" for e in mine)
         same = sum(bool(e.get("equivalent")) for e in mine)
         score, able = 100 * killed / len(mine), 100 * killed / max(len(mine) - same, 1)
-        cells = (folder, seed, len(mine), killed, same, f"{score:.0f} %", f"{able:.0f} %")
+        since = sum(bool(e.get("since")) for e in mine)
+        cells = (folder, seed, len(mine), killed, same, f"{score:.0f} %", f"{able:.0f} %", since)
         rows.append(f"| {' | '.join(map(str, cells))} |")
-    rows += ["", "| survivor | change | line | why |", "|---|---|---|---|"]
+    rows += ["", "| survivor | change | line | why, or the test since |", "|---|---|---|---|"]
     for entry in results.values():
         if entry["status"] == "survived":
-            why = entry.get("equivalent") or entry.get("now") or entry.get("why", "")
+            why = entry.get("equivalent") or entry.get("since") or entry.get("why", "")
             line = entry["source"].replace("|", "/")
             rows.append(
                 f"| {entry['module']}:{entry['line']} | `{entry['before']}` to `{entry['after']}` "
@@ -203,7 +228,8 @@ def main() -> None:
     parser.add_argument("--coverage", type=Path)
     parser.add_argument("--log", type=Path)
     parser.add_argument("--results", type=Path, default=PAGE)
-    parser.add_argument("--table", action="store_true")
+    parser.add_argument("--table", action="store_true", help="print the tables only")
+    parser.add_argument("--again", action="store_true", help="run the survivors once more")
     arguments = parser.parse_args()
     file = arguments.results
     results = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {}
@@ -211,8 +237,18 @@ def main() -> None:
         lines = Coverage(arguments.coverage, arguments.log)
         for folder in arguments.folders:
             print(folder, flush=True)
-            run_draw(folder, arguments.count, arguments.seed, lines, results, file)
+            places = [(f"{arguments.seed} {m.key}", m) for m in drawn(folder, arguments)]
+            pending = [(key, mutant) for key, mutant in places if key not in results]
+            if arguments.again:
+                pending = survivors(folder, arguments.seed, results)
+            run_draw(folder, arguments.seed, pending, lines, results, file)
     print(table(results))
+    if file.resolve() == PAGE:
+        page = PAGE.with_name("mutation.md")
+        block = f"<!-- draws -->\n{table(results)}\n<!-- end of draws -->"
+        text = page.read_text(encoding="utf-8")
+        text = re.sub("<!-- draws -->.*<!-- end of draws -->", lambda _: block, text, flags=re.S)
+        page.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
