@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import inspect
 import math
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from numbers import Integral, Real
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
 
+_PACKAGE = f"{__name__.partition('.')[0]}."
 # A car body of 26 m has some 8 m.
 _WIDEST_GYRATION = 15.0
 
@@ -128,13 +130,21 @@ def moments_of_inertia(what: str, values: Any, mass: float) -> tuple[float, floa
             )
     gyration = math.sqrt(max(x, y, z) / mass)
     if gyration > _WIDEST_GYRATION:
-        warnings.warn(
+        warn(
             f"{what} = {max(x, y, z):g} kg m^2 of a mass of {mass:g} kg is a radius of gyration of "
-            f"{gyration:.3g} m (usual: up to {_WIDEST_GYRATION:g} m): are they in kg and kg m^2?",
-            WheelsetWarning,
-            stacklevel=4,
+            f"{gyration:.3g} m (usual: up to {_WIDEST_GYRATION:g} m): are they in kg and kg m^2?"
         )
     return x, y, z
+
+
+def warn(warning: str | WheelsetWarning) -> None:
+    """Warn of the user's line: the first one above this call that is not the package's."""
+    level = 2
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith(_PACKAGE):
+        frame = frame.f_back
+        level += 1
+    warnings.warn(warning, None if isinstance(warning, Warning) else WheelsetWarning, level)
 
 
 def unknown(kind: str, name: Any, known: Sequence[str]) -> WheelsetError:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
 import exudyn as exu
 import numpy as np
 
-from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.checking import number, numbers, warn
 from exudyn_wheelset.contact.changing_rails import rails_change
 from exudyn_wheelset.contact.descriptions import Contact, Track, Wheelset
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.coupling.elastic_rails import RailElasticity
 from exudyn_wheelset.coupling.guidance import Guidance
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.gap import least_gap
 from exudyn_wheelset.track.irregularity import Irregularity
 
@@ -75,12 +74,10 @@ def warn_of_depth(wheelset: Wheelset, track: Track, y: float, height: float, yaw
         gap = least_gap(table, hand, sign * y, -sign * across, along, 0.0)[0]
         depth = -gap - wheelset.radius - height
         if np.isfinite(depth) and depth > DEEPEST:
-            warnings.warn(
+            warn(
                 f"{1e3 * y:g} mm aside the {side} wheel begins {1e3 * depth:.1f} mm inside its "
                 f"rail (more than {1e3 * DEEPEST:g} mm), which throws the wheelset off: give a "
-                "smaller lateral_offset, or a height at which it is free of the rails",
-                WheelsetWarning,
-                stacklevel=4,
+                "smaller lateral_offset, or a height at which it is free of the rails"
             )
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import difflib
 import math
-import warnings
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from exudyn_wheelset.checking import warn
 from exudyn_wheelset.creep.law import CreepLaw
 from exudyn_wheelset.creep.polach_2005 import LAW as POLACH_2005
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.errors import WheelsetError
 
 LEAST = 1e-60
 LARGEST_PATCH = 1e9
@@ -113,16 +113,12 @@ def check_patch(values: dict[str, NDArray]) -> None:
             )
     for name in ("a", "b"):
         if np.any(values[name] > USUAL_PATCH):
-            warnings.warn(
+            warn(
                 f"{name} = {values[name].max():g} m is no patch of wheel and rail (usual: 1e-3 to "
-                f"2e-2 m, warned of from {USUAL_PATCH:g} m): is it given in m?",
-                WheelsetWarning,
-                stacklevel=4,
+                f"2e-2 m, warned of from {USUAL_PATCH:g} m): is it given in m?"
             )
     if np.any(values["shear_modulus"] < USUAL_SHEAR_MODULUS):
-        warnings.warn(
+        warn(
             f"shear_modulus = {values['shear_modulus'].min():g} Pa is that of no solid (steel: "
-            f"82e9 Pa, warned of below {USUAL_SHEAR_MODULUS:g} Pa): is it given in Pa?",
-            WheelsetWarning,
-            stacklevel=4,
+            f"82e9 Pa, warned of below {USUAL_SHEAR_MODULUS:g} Pa): is it given in Pa?"
         )

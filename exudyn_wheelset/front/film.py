@@ -12,7 +12,6 @@ from __future__ import annotations
 import contextlib
 import shutil
 import subprocess
-import warnings
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -21,8 +20,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from exudyn_wheelset.checking import number, numbers, positive, unknown
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.checking import number, numbers, positive, unknown, warn
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.front.animation import Camera, render, show_rails, write_film
 from exudyn_wheelset.results.files import write_atomically
 from exudyn_wheelset.results.motion import Motion
@@ -263,11 +262,7 @@ def _write(path: Path, pictures: Iterator[np.ndarray], rate: float) -> Path:
     writer = mp4_writer()
     if writer is None:
         if suffix:
-            warnings.warn(
-                f"{path} becomes a GIF: for MP4 install imageio-ffmpeg or ffmpeg",
-                WheelsetWarning,
-                stacklevel=3,
-            )
+            warn(f"{path} becomes a GIF: for MP4 install imageio-ffmpeg or ffmpeg")
         return write_film(path.with_suffix(".gif"), list(pictures), rate)
     path = path.with_suffix(".mp4")
     return write_atomically(path, lambda part: writer(part, pictures, rate))

@@ -19,7 +19,6 @@ angle [rad], radius [m]. Yaw is zero: that is what the paper tabulates.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
@@ -30,9 +29,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline, PPoly
 
-from exudyn_wheelset.checking import number, whole
+from exudyn_wheelset.checking import number, warn, whole
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.geometry.rigid import ContactGeometry, searched_geometry
 from exudyn_wheelset.geometry.roughness import rough_profiles, warn_if_rough
 from exudyn_wheelset.spelling import spelt
@@ -157,7 +156,7 @@ def piecewise_geometry(
     moved = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) > JUMP)
     try:
         if rough_profiles(wheelset, track):
-            warn_if_rough(wheelset, track, y, places, level=4)
+            warn_if_rough(wheelset, track, y, places)
             raise _TooRough
         jumps = _locate_jumps(search, y[moved], y[moved + 1])
         jumps = np.unique(jumps[np.isfinite(jumps)])
@@ -180,12 +179,10 @@ class _TooRough(Exception):
 
 def _warn_of_jumps(wheelset: Wheelset, track: Track, tolerance: float) -> None:
     names = f"{wheelset.wheel.name} on {track.rail.name}"
-    warnings.warn(
+    warn(
         f"{names}: the contact jumps too often for pieces that hold {tolerance:g} m, as it does "
         "where points with noise curve the profiles; straight lines between the searched points "
-        "are returned, with their residuals: smooth what was measured, smoothing='auto'",
-        WheelsetWarning,
-        stacklevel=4,
+        "are returned, with their residuals: smooth what was measured, smoothing='auto'"
     )
 
 

@@ -268,7 +268,7 @@ def contact_geometry(
     weights = numbers("weights", weights, 3, "-", 0.0)  # type: ignore[assignment]
     found = searched_geometry(wheelset, track, y, yaw, method, weights)
     places = np.column_stack((found.left.wheel_y, found.right.wheel_y))
-    warn_if_rough(wheelset, track, found.y, places, level=4)
+    warn_if_rough(wheelset, track, found.y, places)
     return found
 
 

@@ -8,13 +8,11 @@ smooth pair has four jumps, and radii and angles between the jumps are those of 
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import NDArray
 
+from exudyn_wheelset.checking import warn
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
-from exudyn_wheelset.errors import WheelsetWarning
 from exudyn_wheelset.profiles import Profile
 
 # Ten times a tread's curvature; measured profiles as instruments write them have up to 4 1/m
@@ -35,12 +33,10 @@ def warn_if_rough(
     track: Track,
     y: NDArray[np.float64],
     places: NDArray[np.float64],
-    level: int = 3,
 ) -> None:
     """WheelsetWarning with the jumps of the contact and their cause, where a profile is noise.
 
-    y: shape (n,) [m]; places: shape (n, k), lateral positions of contact points [m]; level: how
-    far above this call the user's line is.
+    y: shape (n,) [m]; places: shape (n, k), lateral positions of contact points [m].
     """
     rough = rough_profiles(wheelset, track)
     if not rough or len(y) < 3:
@@ -52,10 +48,8 @@ def warn_if_rough(
         f"{p.curvature_noise:.3g} 1/m"
         for p in rough
     )
-    warnings.warn(
+    warn(
         f"contact jumps {jumps} times between y = {1e3 * np.min(y):.3g} and "
         f"{1e3 * np.max(y):.3g} mm, from crest to crest of measurement noise ({causes}): radii, "
-        "angles and conicity are not to be trusted; load the profile with smoothing='auto'",
-        WheelsetWarning,
-        stacklevel=level,
+        "angles and conicity are not to be trusted; load the profile with smoothing='auto'"
     )

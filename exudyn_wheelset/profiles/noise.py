@@ -18,13 +18,12 @@ larger then; `noise_by_spacing` gives all three.
 
 from __future__ import annotations
 
-import warnings
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from exudyn_wheelset.errors import WheelsetWarning
+from exudyn_wheelset.checking import warn
 from exudyn_wheelset.profiles.curve import chord_length
 
 FloatArray = NDArray[np.float64]
@@ -105,12 +104,10 @@ def warn_of_noise(name: str, sigma: float, noise: float) -> None:
     sigma: of the points [m]; noise: of the curvature [1/m].
     """
     if noise > _WORTHLESS_CURVATURE:
-        warnings.warn(
+        warn(
             f"{name}: the points are off by {1e6 * sigma:.2g} micrometres, so the curvature of the "
             f"curve through them is off by {noise:.3g} 1/m, where a tread has about 3 1/m: contact "
-            "will be rough and conicity wrong; give smoothing='auto'",
-            WheelsetWarning,
-            stacklevel=4,
+            "will be rough and conicity wrong; give smoothing='auto'"
         )
 
 

@@ -14,17 +14,17 @@ closer together than the flanges, a vehicle that stands across its track.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
+from exudyn_wheelset.checking import warn
 from exudyn_wheelset.contact.descriptions import Track, Wheelset
 from exudyn_wheelset.coupling.registration import WheelsetItems
 from exudyn_wheelset.coupling.wheel_forces import FLANGE_ANGLE
-from exudyn_wheelset.errors import AnalysisError, ContactError, WheelsetWarning
+from exudyn_wheelset.errors import AnalysisError, ContactError
 from exudyn_wheelset.geometry.rigid import contact_geometry
 from exudyn_wheelset.systems.trucks import trucks_by_distance
 from exudyn_wheelset.track.layout import Curve
@@ -103,13 +103,11 @@ def check_curves(name: str, wheelsets: Sequence[WheelsetItems]) -> None:
                 plain = play(contact.wheelset, track)
                 least = radius * aside / shift if shift > 0.0 else radius * aside / plain
                 mend = f"give R = {least:.3g} m or more, or" if least > radius else "give"
-                warnings.warn(
+                warn(
                     f"{name}: in a curve of R = {radius:g} m parallel axles {axles[0]!r} to "
                     f"{axles[-1]!r} stand {1e3 * askew:.3g} mrad askew and {1e3 * aside:.3g} mm "
                     f"off, and their flanges leave {1e3 * shift:.3g} mm: too narrow unless the "
-                    f"axles give way; {mend} a wider gauge (widening of the Curve)",
-                    WheelsetWarning,
-                    stacklevel=3,
+                    f"axles give way; {mend} a wider gauge (widening of the Curve)"
                 )
                 return
 

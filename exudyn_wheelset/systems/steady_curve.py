@@ -14,7 +14,6 @@ leaves it.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -24,9 +23,9 @@ from typing import Any
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.checking import number
+from exudyn_wheelset.checking import number, warn
 from exudyn_wheelset.contact.layout import Patch
-from exudyn_wheelset.errors import AnalysisError, WheelsetWarning
+from exudyn_wheelset.errors import AnalysisError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending, Outcome
 from exudyn_wheelset.results.motion import Motion
@@ -207,12 +206,10 @@ def steady_curve(
     record = describe(system, "steady curve", {"radius": radius, "cant": cant, "speed": speed})
     motion = _at(system, np.zeros(1), state[None, :], speed, record)
     if system.unsteadiness > 0.0:
-        warnings.warn(
+        warn(
             f"{system.name} in R = {radius:g} m at {speed:g} m/s moves by "
             f"{1e3 * system.unsteadiness:.2g} mm or mrad for ever: what is given is the mean of a "
-            f"second; {_why(vehicle, radius, widening)}",
-            WheelsetWarning,
-            stacklevel=3,
+            f"second; {_why(vehicle, radius, widening)}"
         )
         times = np.linspace(0.0, 1.0, 501)
         samples, _ = system.carry_on(state, speed, times)

@@ -53,7 +53,7 @@ class SimulationError(AnalysisError):
 
 
 # Above any rail vehicle [m/s]: a speed beyond it is one in another unit.
-FASTEST = 400.0
+FASTEST = 500.0
 
 
 class DynamicSystem(ABC):

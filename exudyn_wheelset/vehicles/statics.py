@@ -7,7 +7,6 @@ for their offset, and the place of all bodies is found (rest.py).
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -16,7 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
-from exudyn_wheelset.errors import VehicleError, WheelsetWarning
+from exudyn_wheelset.checking import warn
+from exudyn_wheelset.errors import VehicleError
 from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.vehicles.description import Vehicle
@@ -77,12 +77,10 @@ def static_equilibrium(vehicle: Vehicle) -> StaticEquilibrium:
     left = np.abs(accelerations(vehicle, rest))
     if left.max() > NOT_AT_REST:
         worst = parts[int(np.argmax(left.max(axis=1)))].name
-        warnings.warn(
+        warn(
             f"{vehicle.name}: {worst!r} is left with {left.max():.3g} m/s^2 (or rad/s^2) where it "
             f"is drawn (limit {NOT_AT_REST:g}), and no place of rest was found nearby: check the "
-            "play of the flanges (gauge, tape_half_distance) and bodies beside the middle",
-            WheelsetWarning,
-            stacklevel=3,
+            "play of the flanges (gauge, tape_half_distance) and bodies beside the middle"
         )
     preloads: dict[str, Array] = {}
     moved = (rest.pose - rest.drawn).ravel()

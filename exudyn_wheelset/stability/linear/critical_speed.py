@@ -103,7 +103,7 @@ def linear_critical_speed(
 
 def _warn(spectra: Spectra, found: CriticalPoint) -> None:
     if found.law is not None:
-        warn_of_law(spectra.system.name, [(found.speed, found.law)], level=5)
+        warn_of_law(spectra.system.name, [(found.speed, found.law)])
 
 
 def _first_hunting(

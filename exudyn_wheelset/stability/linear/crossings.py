@@ -165,7 +165,7 @@ def hopf_points(
     changes = stability_changes(system, low, high, points=points, tolerance=tolerance)
     found = [change for change in changes if change.kind == "hopf"]
     laws = [(point.speed, point.law) for point in found if point.law is not None]
-    warn_of_law(system.name, laws, level=4)
+    warn_of_law(system.name, laws)
     return found
 
 

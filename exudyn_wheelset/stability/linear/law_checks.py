@@ -25,13 +25,13 @@ moves: amplitude_error is by how much a motion of up to 10 um sees another one (
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from exudyn_wheelset.arrays import Array
+from exudyn_wheelset.checking import warn
 from exudyn_wheelset.creep import CREEP_LAWS
 from exudyn_wheelset.creep.slopes import creep_slopes
 from exudyn_wheelset.errors import WheelsetWarning
@@ -199,11 +199,8 @@ def additivity(system: DynamicSystem, state: Array, speed: float, mode: Array) -
     return worst
 
 
-def warn_of_law(name: str, checks: Sequence[tuple[float, LawCheck]], level: int = 3) -> None:
-    """Warn of the worst of the checks (speed [m/s], check) of a system, once for each fault.
-
-    level: place in the stack of the line that the warning names, 3 for the caller's caller.
-    """
+def warn_of_law(name: str, checks: Sequence[tuple[float, LawCheck]]) -> None:
+    """Warn of the worst of the checks (speed [m/s], check) of a system, once for each fault."""
     if not checks:
         return
     speed, check = max(checks, key=lambda entry: entry[1].additivity)
@@ -216,4 +213,4 @@ def warn_of_law(name: str, checks: Sequence[tuple[float, LawCheck]], level: int 
     ):
         if message:
             warning = LawWarning(message, about=f"{name}, {check.law}: {fault}")
-            warnings.warn(warning, stacklevel=level)
+            warn(warning)

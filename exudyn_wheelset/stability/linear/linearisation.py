@@ -147,7 +147,7 @@ def linearise(vehicle: Any, speed: float, guess: Array | None = None) -> Lineari
         return linear
     mode = linear.eigenvectors[:, row]
     law = check_law(system, linear.state, linear.speed, mode, linear.jacobian)
-    warn_of_law(system.name, [(linear.speed, law)], level=4)
+    warn_of_law(system.name, [(linear.speed, law)])
     return replace(linear, law=law)
 
 

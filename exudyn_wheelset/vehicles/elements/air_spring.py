@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from exudyn_wheelset.checking import numbers
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.damper import STROKE
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
     Vector,
+    checked_along,
     checked_damping,
     checked_stiffness,
 )
@@ -44,10 +44,9 @@ class AirSpring(Element):
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
-            given = numbers(f"AirSpring: {what} (x, y, z)", getattr(self, what), 3, "SI")
-            named = zip("xyz", given, strict=True)
-            put(self, what, tuple(check(f"AirSpring: {what} {axis}", v) for axis, v in named))
+        stiffness, damping = checked_along("AirSpring", self.stiffness, self.damping)
+        put(self, "stiffness", stiffness)
+        put(self, "damping", damping)
         surge = checked_stiffness("AirSpring: surge_stiffness", self.surge_stiffness)
         put(self, "surge_stiffness", surge)
         put(self, "surge_damping", checked_damping("AirSpring: surge_damping", self.surge_damping))

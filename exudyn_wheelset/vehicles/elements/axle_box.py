@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from exudyn_wheelset.checking import numbers, positive
+from exudyn_wheelset.checking import positive
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
     Vector,
-    checked_damping,
-    checked_stiffness,
+    checked_along,
 )
 
 
@@ -40,10 +39,9 @@ class AxleBox(Element):
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
-            given = numbers(f"AxleBox: {what} (x, y, z)", getattr(self, what), 3, "SI")
-            named = zip("xyz", given, strict=True)
-            put(self, what, tuple(check(f"AxleBox: {what} {axis}", v) for axis, v in named))
+        stiffness, damping = checked_along("AxleBox", self.stiffness, self.damping)
+        put(self, "stiffness", stiffness)
+        put(self, "damping", damping)
         put(self, "spacing", positive("AxleBox: spacing", self.spacing, "m", 1.0))
 
     def laws(self) -> tuple[Law, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.checking import number
 from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.friction_wedge import FrictionWedge
@@ -16,8 +16,7 @@ from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
     Vector,
-    checked_damping,
-    checked_stiffness,
+    checked_along,
 )
 
 
@@ -43,10 +42,9 @@ class CoilNest(Element):
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
-            given = numbers(f"CoilNest: {what} (x, y, z)", getattr(self, what), 3, "SI")
-            named = zip("xyz", given, strict=True)
-            put(self, what, tuple(check(f"CoilNest: {what} {axis}", v) for axis, v in named))
+        stiffness, damping = checked_along("CoilNest", self.stiffness, self.damping)
+        put(self, "stiffness", stiffness)
+        put(self, "damping", damping)
         if not isinstance(self.wedge, FrictionWedge):
             raise WheelsetError(f"CoilNest: wedge = {self.wedge!r}: give a FrictionWedge")
         put(self, "spacing", number("CoilNest: spacing", self.spacing, "m", 0.0, 2.0))

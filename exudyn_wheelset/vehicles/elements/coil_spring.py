@@ -18,13 +18,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from exudyn_wheelset.checking import numbers
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
     Vector,
-    checked_damping,
+    checked_along,
     checked_stiffness,
 )
 
@@ -52,10 +51,9 @@ class CoilSpring(Element):
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
-            given = numbers(f"CoilSpring: {what} (x, y, z)", getattr(self, what), 3, "SI")
-            named = zip("xyz", given, strict=True)
-            put(self, what, tuple(check(f"CoilSpring: {what} {axis}", v) for axis, v in named))
+        stiffness, damping = checked_along("CoilSpring", self.stiffness, self.damping)
+        put(self, "stiffness", stiffness)
+        put(self, "damping", damping)
         for what in ("bending", "torsion"):
             value = checked_stiffness(f"CoilSpring: {what}", getattr(self, what), "N m/rad")
             put(self, what, value)

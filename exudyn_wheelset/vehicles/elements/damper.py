@@ -12,13 +12,12 @@ stiffness is k i w c/(k + i w c). It carries no load that stays.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
-from exudyn_wheelset.checking import positive
+from exudyn_wheelset.checking import positive, warn
 from exudyn_wheelset.coupling.registration import FirstOrderState
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import checked_table, curve_of
 from exudyn_wheelset.vehicles.elements.protocol import (
@@ -64,13 +63,11 @@ class MaxwellDamper(Element):
         positive("MaxwellDamper: stiffness", self.stiffness, "N/m")
         positive("MaxwellDamper: damping", self.damping, "N s/m")
         if self.damping > _LONGEST_RELAXATION * self.stiffness:
-            warnings.warn(
+            warn(
                 f"MaxwellDamper: stiffness = {self.stiffness:g} N/m and damping = "
                 f"{self.damping:g} N s/m let a force relax in c/k = "
                 f"{self.damping / self.stiffness:g} s (usual are milliseconds, at most "
-                f"{_LONGEST_RELAXATION:g} s): are they exchanged?",
-                WheelsetWarning,
-                stacklevel=3,
+                f"{_LONGEST_RELAXATION:g} s): are they exchanged?"
             )
 
     def laws(self) -> tuple[Law, ...]:

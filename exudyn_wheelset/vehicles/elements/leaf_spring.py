@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from exudyn_wheelset.checking import number, numbers, positive
+from exudyn_wheelset.checking import number, positive
 from exudyn_wheelset.vehicles import friction_kernel, layout
 from exudyn_wheelset.vehicles.elements.friction import (
     ALONG_Z,
@@ -24,8 +24,7 @@ from exudyn_wheelset.vehicles.elements.protocol import (
     Element,
     Law,
     Vector,
-    checked_damping,
-    checked_stiffness,
+    checked_along,
 )
 
 
@@ -50,10 +49,9 @@ class LeafSpring(Element):
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        for what, check in (("stiffness", checked_stiffness), ("damping", checked_damping)):
-            given = numbers(f"LeafSpring: {what} (x, y, z)", getattr(self, what), 3, "SI")
-            named = zip("xyz", given, strict=True)
-            put(self, what, tuple(check(f"LeafSpring: {what} {axis}", v) for axis, v in named))
+        stiffness, damping = checked_along("LeafSpring", self.stiffness, self.damping)
+        put(self, "stiffness", stiffness)
+        put(self, "damping", damping)
         positive("LeafSpring: stiffness z", self.stiffness[2], "N/m")
         friction = number(
             "LeafSpring: friction", self.friction, "-", 0.0, 0.9, "a part of the load"

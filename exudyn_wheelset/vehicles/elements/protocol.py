@@ -21,16 +21,15 @@ Nothing is to be registered: a class of one's own works at once. `Element` is a 
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from exudyn_wheelset.checking import number, numbers
+from exudyn_wheelset.checking import number, numbers, warn
 from exudyn_wheelset.coupling.registration import FirstOrderState
-from exudyn_wheelset.errors import WheelsetError, WheelsetWarning
+from exudyn_wheelset.errors import WheelsetError
 from exudyn_wheelset.vehicles import layout
 from exudyn_wheelset.vehicles.elements.curve import Curve
 from exudyn_wheelset.vehicles.elements.friction import Friction
@@ -177,11 +176,9 @@ def checked_stiffness(what: str, value: Any, unit: str = "N/m") -> float:
         mend = f"if {stiffness:g} kN/mm is meant, give {stiffness:g}e6"
         if unit != "N/m":
             mend = f"if {stiffness:g} kN m/rad is meant, give {stiffness:g}e3"
-        warnings.warn(
+        warn(
             f"{what} = {stiffness:g} {unit} is soft for a railway vehicle (usual are {_SOFT:g} "
-            f"{unit} and more); {mend}",
-            WheelsetWarning,
-            stacklevel=4,
+            f"{unit} and more); {mend}"
         )
     return stiffness
 
@@ -189,6 +186,23 @@ def checked_stiffness(what: str, value: Any, unit: str = "N/m") -> float:
 def checked_damping(what: str, value: Any, unit: str = "N s/m") -> float:
     """A damping from 0 up."""
     return number(what, value, unit, 0.0, 1e10, "a damping is not negative")
+
+
+def checked_along(what: str, stiffness: Any, damping: Any) -> tuple[Vector, Vector]:
+    """Stiffness [N/m] and damping [N s/m] along x, y and z, each as the two above check it."""
+    x, y, z = (
+        checked_stiffness(f"{what}: stiffness {axis}", value)
+        for axis, value in zip(
+            "xyz", numbers(f"{what}: stiffness (x, y, z)", stiffness, 3, "N/m"), strict=True
+        )
+    )
+    a, b, c = (
+        checked_damping(f"{what}: damping {axis}", value)
+        for axis, value in zip(
+            "xyz", numbers(f"{what}: damping (x, y, z)", damping, 3, "N s/m"), strict=True
+        )
+    )
+    return (x, y, z), (a, b, c)
 
 
 def mirrored_matrix(matrix: np.ndarray) -> np.ndarray:
