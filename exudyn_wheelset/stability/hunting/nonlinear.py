@@ -17,15 +17,14 @@ when all hunt; descent is their default.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from exudyn_wheelset.checking import positive
 from exudyn_wheelset.errors import AnalysisError, WheelsetError
-from exudyn_wheelset.results.brief import brief
 from exudyn_wheelset.results.endings import Ending
 from exudyn_wheelset.spelling import spelt
 from exudyn_wheelset.stability.hunting.aligned import sensitivity_near
@@ -35,6 +34,11 @@ from exudyn_wheelset.stability.hunting.descent import quasi_static_descent
 from exudyn_wheelset.stability.hunting.descent_result import Descent
 from exudyn_wheelset.stability.hunting.large_starts import hunting_at
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
+from exudyn_wheelset.stability.hunting.nonlinear_result import (
+    Method,
+    NoLimitCycleError,
+    NonlinearCriticalSpeed,
+)
 from exudyn_wheelset.stability.hunting.orbit import Orbit
 from exudyn_wheelset.stability.hunting.settling import Settling
 from exudyn_wheelset.stability.hunting.simulated_stability import (
@@ -50,9 +54,7 @@ from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.system import DynamicSystem
 
 if TYPE_CHECKING:
-    from exudyn_wheelset.stability.gradients import Gradient
-
-Method = Literal["continuation", "descent"]
+    pass
 
 # Ranges of speed [m/s] searched in turn for the Hopf point if none is given.
 SEARCH = ((5.0, 60.0), (60.0, 120.0), (120.0, 240.0), (240.0, 480.0))
@@ -77,60 +79,6 @@ NEAR = 1.05
 TOLD = 3
 # Amplitude, in scales (millimetres), from which a cycle is called hunting.
 SMALLEST = 0.1
-
-
-class NoLimitCycleError(AnalysisError):
-    """No stable limit cycle was found; `branch` holds what was."""
-
-    def __init__(self, message: str, branch: Branch | Descent) -> None:
-        super().__init__(message)
-        self.branch = branch
-
-
-@brief
-@dataclass(frozen=True, eq=False)
-class NonlinearCriticalSpeed(float):
-    """The lowest speed of stable hunting; a float, the speed itself [m/s].
-
-    speed     [m/s]
-    method    "continuation" or "descent"
-    how       what the number is, what it was found from and how it was checked
-    bracket   speeds [m/s] between which it lies by the method
-    hopf      the Hopf point that the search began with
-    branch    the Branch or Descent behind it
-    by_truck  speed [m/s] at which each truck stops hunting, by descent; the trucks that hunt at the
-              answer, by continuation; empty for a vehicle without trucks
-    others    branches looked at beside it
-    """
-
-    speed: float
-    method: Method
-    how: str
-    bracket: tuple[float, float]
-    hopf: CriticalPoint
-    branch: Branch | Descent
-    by_truck: dict[str, float] = field(default_factory=dict)
-    others: tuple[Branch, ...] = ()
-
-    def __new__(cls, speed: float, *_: Any, **__: Any) -> NonlinearCriticalSpeed:
-        return super().__new__(cls, speed)
-
-    def gradient(self, names: Sequence[str] | None = None, vehicle: Any = None) -> Gradient:
-        """Derivative of the speed by the numbers of the vehicle: name -> (m/s)/unit.
-
-        That of the fold, or of the Hopf point where it is supercritical; see `Fold.gradient`.
-        Raises AnalysisError where the speed is neither, and for a descent.
-        """
-        if self.speed == self.hopf.speed:
-            return self.hopf.gradient(names, vehicle)
-        for fold in getattr(self.branch, "folds", ()):
-            if fold.speed == self.speed:
-                gradient: Gradient = fold.gradient(names, vehicle)
-                return gradient
-        raise AnalysisError(
-            f"{self.speed:.4f} m/s is neither a fold nor a Hopf point, so it has no gradient: "
-            "ask for method='continuation'"
-        )
 
 
 @spelt

@@ -11,7 +11,8 @@ Bounds, with the widest of what is built:
                              1/270; a car body 1/35)
     radius of a wheel        0.1 (roller rigs) to 1 m
     places                   |y| up to 4 m, |x| up to 60 m, z from -1 to 10 m, not within 5 cm of
-                             the rail tops but for 0; centres from 0.1 m up
+                             the rail tops but for 0; centres from 0.1 m up; connections not
+                             within 1 cm of the vehicle's middle, along or across, but for 0
     stiffness                1e4 (lateral, of an air spring: 1e5) to 1e9 N/m (the contact of wheel
                              and rail), of faces that press to 1e10; damping 100 (a rubber block:
                              1e3) to 1e7 N s/m; zero is free
@@ -43,6 +44,7 @@ _SOFTEST, _STIFFEST = 1.0e4, 1.0e9
 _LIGHTEST_DAMPING, _HEAVIEST_DAMPING = 100.0, 1.0e7
 _SHORTEST_WAY, _WIDEST_WAY = 1.0e-4, 0.5
 _LEAST_PRESSURE = 100.0
+_NEAREST = 0.01
 _GREATEST_FORCE = 3.0
 _FASTEST = 5.0
 _LONGEST_RELAXATION = 1.0
@@ -144,6 +146,15 @@ def _check_inertia(
 
 def _check_connection(one: Connection, greatest: float) -> None:
     _check_place("connection", one.name, "at", one.at, -1.0)
+    for value in one.at[:2]:
+        if 1e-9 < abs(value) < _NEAREST:
+            raise Implausible(
+                "connection",
+                one.name,
+                "at",
+                f"at = {one.at} m stands {value:g} m beside the middle (0, or {_NEAREST:g} m and "
+                "more): give metres",
+            )
     if one.preload is not None:
         force = math.hypot(*one.preload)
         _within("connection", one.name, "preload", force, 0.0, greatest, "N")
