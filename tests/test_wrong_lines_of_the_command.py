@@ -35,7 +35,7 @@ COMMAND = {
     "stability --vehicle s1002 --searched 90 30": ["90", "30"],
     "map --over conicity=0.2:0.02": ["0.2:0.02", "lower end first"],
     "map --over flavour=0.1:0.2": ["flavour"],
-    "map --over conicity=0.1:0.2 --points 1": ["1", "two points"],
+    "map --over conicity=0.1:0.2 --points 1": ["points = 1", "at least 2"],
     "study --vary friction=0.1:0.3": ["0.1:0.3", "LOW:HIGH:COUNT"],
     "study --vary wheel=/nowhere/*.whl": ["/nowhere", "no file"],
     "study --vary friction": ["friction", "values"],

@@ -111,7 +111,9 @@ class Truck:
             f"{self.name}: frame_inertia", self.frame_inertia, self.frame_mass
         )
         object.__setattr__(self, "frame_inertia", inertia)
-        positive(f"{self.name}: half_wheelbase", self.half_wheelbase, "m", 10.0)
+        positive(
+            f"{self.name}: half_wheelbase", self.half_wheelbase, "m", 10.0, "is it given in metres?"
+        )
         positive(f"{self.name}: car_load", self.car_load, "N", 1e7)
         for what, value in (("axle_drop", self.axle_drop), ("secondary_rise", self.secondary_rise)):
             number(f"{self.name}: {what}", value, "m", -10.0, 10.0, "is it given in metres?")
