@@ -77,14 +77,15 @@ def test_false_position_stays_off_the_ends_of_its_bracket(monkeypatch):
     def at(place):
         return SimpleNamespace(slope=root - place, tangent=None, place=place)
 
-    def on_plane(system, place, tangent, start):
+    def on_plane(system, place, tangent, start, align):
+        assert align == 3
         places.append(place)
         return at(place)
 
     monkeypatch.setattr(fold_points, "distance_between", lambda one, other: width)
     monkeypatch.setattr(fold_points, "along", lambda point, move: point.place + move)
     monkeypatch.setattr(fold_points, "orbit_on_plane", on_plane)
-    found = fold_points._between(None, at(0.0), at(width), tolerance)
+    found = fold_points._between(None, at(0.0), at(width), tolerance, 3)
     lower, upper = 0.0, width
     for place in places:
         kept = 0.05 * (upper - lower)
