@@ -55,7 +55,7 @@ def force_error(patches, row, mirror=1.0):
     return np.linalg.norm(found - wanted) / np.linalg.norm(wanted)
 
 
-@pytest.mark.parametrize("normal", ["hertz", "virtual-penetration", "strips", "energy"])
+@pytest.mark.parametrize("normal", ["hertz", "virtual-penetration", "strips", "energy", "ritz"])
 @pytest.mark.parametrize("row", ELLIPTIC, ids=name_of)
 def test_one_patch_in_place_size_and_creepage(benchmark_forces, row, normal):
     forces = benchmark_forces(row, normal=normal)
@@ -146,7 +146,7 @@ def test_right_wheel_of_the_mirrored_wheelset(benchmark_forces, row, creep):
         assert force_error(right, row, mirror=-1.0) < bound
 
 
-@pytest.mark.parametrize("normal", ["hertz", "strips", "energy"])
+@pytest.mark.parametrize("normal", ["hertz", "strips", "energy", "ritz"])
 def test_two_patches_in_one_at_5_mm(benchmark_forces, normal):
     """Height, mean place and force of the whole; where exactly, the two patches share it out.
 

@@ -79,7 +79,7 @@ class Rolling:
         contact = self.items.contact.elastic_energy(self.mbs)
         return [motion, 0.5 * inertia[1] * spin**2, springs, potential, contact]
 
-    def run(self, shift, yaw):
+    def run(self, shift, yaw, step=STEP):
         """Times, energies (n, 5), shifts and axle torques over the simulated motion."""
         data, initial = self.mbs.systemData, exu.ConfigurationType.Initial
         rates = np.array([0.0, 0.0, 0.0, 0.0, SPEED / RADIUS, 0.0])
@@ -92,7 +92,7 @@ class Rolling:
         data.SetODE2Coordinates_t(rates, initial)
 
         def note(mbs, t):
-            if round(t / STEP) % EVERY == 0:
+            if round(t / step) % round(EVERY * STEP / step) == 0:
                 q, v = data.GetODE2Coordinates(), data.GetODE2Coordinates_t()
                 axle = Rotation.from_rotvec(q[3:]).apply([0.0, 1.0, 0.0])
                 torque = self.items.contact.current(mbs).moment @ axle
@@ -102,7 +102,7 @@ class Rolling:
         self.mbs.SetPreStepUserFunction(note)
         settings = exu.SimulationSettings()
         settings.timeIntegration.endTime = DURATION
-        settings.timeIntegration.numberOfSteps = round(DURATION / STEP)
+        settings.timeIntegration.numberOfSteps = round(DURATION / step)
         settings.timeIntegration.verboseMode = 0
         settings.solution.file.write = False
         settings.solution.sensors.active = False
@@ -113,16 +113,18 @@ class Rolling:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("wheel", "gauge", "normal", "within_period", "torque"),
+    ("wheel", "gauge", "normal", "within_period", "torque", "step"),
     [
-        ("AAR_1_20", 1.432, "hertz", 1e-3, 1e-5),
-        ("S1002", 1.435, "hertz", 3e-2, 1e-5),
-        # The gradient of an energy: what is left is the integrator's, and rounding.
-        ("S1002", 1.435, "energy", 1e-4, 1e-9),
+        ("AAR_1_20", 1.432, "hertz", 1e-3, 1e-5, STEP),
+        ("S1002", 1.435, "hertz", 3e-2, 1e-5, STEP),
+        # The gradient of an energy: what is left is the integrator's, and rounding. Crossing the
+        # two lobes of the centre shakes the contact, and Runge-Kutta's steps damp that with h^5.
+        ("S1002", 1.435, "energy", 1e-4, 1e-9, 0.5 * STEP),
+        ("S1002", 1.435, "ritz", 1e-4, 1e-9, STEP),
     ],
 )
-def test_total_energy_over_ten_seconds(wheel, gauge, normal, within_period, torque):
-    times, energies, shifts, torques, base = Rolling(wheel, gauge, normal).run(3e-3, 2e-3)
+def test_total_energy_over_ten_seconds(wheel, gauge, normal, within_period, torque, step):
+    times, energies, shifts, torques, base = Rolling(wheel, gauge, normal).run(3e-3, 2e-3, step)
     # It has oscillated, several millimetres to either side, and is still doing so.
     late = times > DURATION - 1.0
     assert shifts[late].max() > 2.5e-3 and shifts[late].min() < -2.5e-3

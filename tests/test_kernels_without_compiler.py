@@ -3,7 +3,7 @@
 Same sources, three ways to run them: compiled (numba, arithmetic as of real numbers), interpreted
 (NUMBA_DISABLE_JIT=1: strict IEEE arithmetic, numpy's own bounds checks) and compiled with
 NUMBA_BOUNDSCHECK=1, where an index out of bounds is an IndexError. Tolerance: sums in another
-order, through Newton iterations that end at 1e-5 to 1e-6 of the energy model (contact/energy.py).
+order, through Newton iterations that end at 1e-5 to 1e-6 of the energy model (contact/ritz.py).
 """
 
 import json

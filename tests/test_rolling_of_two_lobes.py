@@ -97,7 +97,7 @@ def judged(request):
     return request.param, free_and_slopes(truth.force)
 
 
-@pytest.mark.parametrize("normal", ["energy", "hertz"])
+@pytest.mark.parametrize("normal", ["energy", "ritz", "hertz"])
 def test_two_lobes_roll_as_one_patch(judged, normal):
     """Within 8 % along x and 3 % across in the slopes, 0.05 mm in the radius on which it rolls.
 

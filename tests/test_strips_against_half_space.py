@@ -71,10 +71,12 @@ def test_force_and_peak_pressure(name):
     assert abs(force[2] - wanted_z) < 1.2 * (stiffer[2] - force[2])
 
 
-@pytest.mark.parametrize("normal", ["hertz", "strips"])
+@pytest.mark.parametrize("normal", ["energy", "ritz", "hertz", "strips"])
 @pytest.mark.parametrize("y", [0.0047, 0.0048, 0.0049, 0.005, 0.0051])
 def test_tread_and_throat_share_the_load(y, normal):
     """Two patches 8 mm apart sink in each other's field: vertical force 2 %, share 0.015.
+
+    A little more by "energy", 2.5 % or 1 um of height, where the lesser one carries on 3 um of 10.
 
     Without that the vertical force would be up to 21 % too large.
     """
@@ -83,7 +85,8 @@ def test_tread_and_throat_share_the_load(y, normal):
     # The contact angle is 11 degrees in the valley between the two.
     load, _, vertical, _, in_throat = contact_of_gap(gap, steeper=math.radians(11.0))
     force, patches = left_force(y, z, roll, normal=normal)
-    assert force[2] == pytest.approx(vertical, rel=0.02)
+    bound = 0.025 if normal == "energy" else 0.02
+    assert force[2] == pytest.approx(vertical, rel=bound)
     if len(patches) == 2:
         share = patches[0].normal_force / sum(p.normal_force for p in patches)
         assert share == pytest.approx(in_throat / load, abs=0.015)

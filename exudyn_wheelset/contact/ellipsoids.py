@@ -8,7 +8,7 @@ and the shape functions of hertz.py (alpha = axis(t), beta = axis(-t), gamma = d
     N = E* A b^3 nu,  nu = 4/3 (1 + e^t) exp(-3 beta),      a = b exp(alpha - beta),
     approach = A b^2 D,  D = (1 + e^t) exp(gamma - 2 beta),  dW/dN = A b^2 (D - e^t/5),
     dW/db = -2 N B b/5,   dW/dA = N a^2/5,   W = N (0.6 approach - B b^2/5),
-so that (b, t) stand for (b, N); the derivatives make (1) of energy.py stationary.
+so that (b, t) stand for (b, N); the derivatives make (1) of ritz.py stationary.
 
 Two loads N_1, N_2 at a distance r across add N_1 N_2 T, T the mean of 1/(pi E* distance) over both.
 Seen along a direction theta from x a semi-ellipsoid is a parabola f(u) = 3/(4 h) (1 - u^2/h^2) of

@@ -1,6 +1,7 @@
 """Patches of one wheel by the stored energy, called by address (sides_apart.py)."""
 
 from exudyn_wheelset.addresses import numbers_at
+from exudyn_wheelset.contact.energy import energy_patches
 from exudyn_wheelset.contact.layout import (
     PARAMETER_COUNT,
     PARAMETERS,
@@ -10,7 +11,6 @@ from exudyn_wheelset.contact.layout import (
     Material,
     side_of,
 )
-from exudyn_wheelset.contact.load_patches import load_patches
 from exudyn_wheelset.contact.search import find_lobes
 
 
@@ -23,6 +23,6 @@ def energy_at(table, size, hand, parameters, result, y, z, lx, ly, lz):
     axle = Axle(y, z, lx, ly, lz)
     material = Material(options.shear_modulus, options.poisson)
     found = find_lobes(numbers, side, axle, out.work)
-    out.count[hand] = load_patches(
+    out.count[hand] = energy_patches(
         numbers, side, found, axle, material, out.work, out.patches[hand]
     )

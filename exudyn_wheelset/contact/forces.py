@@ -42,6 +42,7 @@ from exudyn_wheelset.contact.layout import (
     RAIL_MOTION,
     RESULT,
     RESULT_SIZE,
+    RITZ,
     STRIPS,
     Axle,
     Creepage,
@@ -51,13 +52,14 @@ from exudyn_wheelset.contact.layout import (
     side_of,
 )
 from exudyn_wheelset.contact.patches import side_patches
-from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_TRACTION
+from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, RITZ_SIDE, STRIP_SIDE, STRIP_TRACTION
 from exudyn_wheelset.creep.fastsim import LAW as FASTSIM
 from exudyn_wheelset.creep.kernel_apart import creep_kernel
 
 # Below this forward speed creepage is formed with it, to stay finite at rest.
 LEAST_SPEED = 0.1
 _FASTSIM = FASTSIM.number
+_ritz_side = RITZ_SIDE.call
 _energy_side = ENERGY_SIDE.call
 _strip_side = STRIP_SIDE.call
 _strip_traction = STRIP_TRACTION.call
@@ -111,7 +113,12 @@ def _patch_creep(k, patches, shares, count, parameters):
 @compiled(inline="always", fastmath=AS_REAL_NUMBERS)
 def _side(table, hand, axle, parameters, options, result, out):
     """Fill the patches of one side and their count."""
-    if options.normal == ENERGY:
+    if options.normal == RITZ:
+        _ritz_side((
+            table.ctypes.data, table.size, hand, parameters.ctypes.data, result.ctypes.data,
+            axle.y, axle.z, axle.lx, axle.ly, axle.lz,
+        ))  # fmt: skip
+    elif options.normal == ENERGY:
         _energy_side((
             table.ctypes.data, table.size, hand, parameters.ctypes.data, result.ctypes.data,
             axle.y, axle.z, axle.lx, axle.ly, axle.lz,

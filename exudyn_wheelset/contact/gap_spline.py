@@ -5,7 +5,7 @@ Sampled at places s_j = j h that belong to the rail, whatever the pose, p is tak
     p(s) = sum c_j B((s - s_j)/h),   c_j = (8 p_j - p_(j-1) - p_(j+1))/6,                    (1)
 
 B the cubic B-spline: a quasi-interpolant, exact for cubics (de Boor, A Practical Guide to Splines,
-chapter XII), with a continuous curvature, linear in the p_j and local. So the energy of energy.py
+chapter XII), with a continuous curvature, linear in the p_j and local. So the energy of ritz.py
 is a function of the p_j alone, and forces on the fixed lines of the grid are its exact gradient.
 
 Means over the load 3/4 (1 - x^2) of an ellipse are closed: with P_1, P_2, P_3 the primitives of p,
@@ -56,15 +56,14 @@ def _reach(depths, arcs, first, final, lobe, low, direction):
 
 
 @compiled
-def sample_lobes(table, side, lobes, count, low, axle, work):
+def sample_ranges(table, side, lobes, count, low, axle, work):
     """Sample p around all lobes to where it has fallen to `low` of their depth.
 
-    Fills `work.ranges` of nodes; lobes get the number of theirs and the ends of their zones.
+    Fills `work.ranges` of nodes; lobes get the number of theirs. Returns how many ranges.
     """
     per = 1.0 / side.line_spacing
     start = side.line_start
     final = side.lines.count - 1
-    depths = work.gap[GAP_DEPTH]
     arcs = block_row(table, side.nodes, NODE_ARC)
     ranges = work.ranges
     made = 0
@@ -94,6 +93,21 @@ def sample_lobes(table, side, lobes, count, low, axle, work):
             sample_gap(table, side, lobe, left, right + 1, axle, work.gap)
         lobe.range = made
         made += 1
+    for k in range(count):
+        lobe = lobes[k]
+        lobe.low = ranges[lobe.range].first + 2
+        lobe.high = ranges[lobe.range].last - 3
+    return made
+
+
+@compiled
+def sample_lobes(table, side, lobes, count, low, axle, work):
+    """As `sample_ranges`, with p as a spline; lobes get the ends of their zones."""
+    made = sample_ranges(table, side, lobes, count, low, axle, work)
+    per = 1.0 / side.line_spacing
+    start = side.line_start
+    depths = work.gap[GAP_DEPTH]
+    ranges = work.ranges
     for k in range(made):
         first = ranges[k].first
         end = ranges[k].last + 1
@@ -103,8 +117,6 @@ def sample_lobes(table, side, lobes, count, low, axle, work):
         )  # fmt: skip
     for k in range(count):
         lobe = lobes[k]
-        lobe.low = ranges[lobe.range].first + 2
-        lobe.high = ranges[lobe.range].last - 3
         lobe.begin, lobe.end = _zone(
             depths, lobe, (lobe.foot - start) * per, LEVEL * lobe.penetration
         )

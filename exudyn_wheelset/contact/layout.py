@@ -8,7 +8,8 @@ one array is the cheapest thing to hand over (docs/decisions/kernels-with-record
     PARAMETERS  what `contact_parameters` makes
     CANDIDATE   a node of the scan where a lobe may be, before it is refined
     LOBE        a maximum of the penetration: its place, its territory, moments of its zone
-    LOAD        a semi-ellipsoid of pressure (energy.py)
+    LOAD        a semi-ellipsoid of pressure (ritz.py)
+    GROUP       lobes as one gap, VALLEY what lies between them (energy.py)
     SHARE       what a patch's creep force needs besides PATCH while lobes merge
     STRIP       a strip of a patch along the rolling direction (strips.py)
     PATCH       the fields of `Patch`, in their order
@@ -32,7 +33,7 @@ from exudyn_wheelset.contact.normal_models import NORMAL_MODELS
 MOST_LOBES = 4
 # A wheel carries on one ellipse a lobe and one more where a patch is far from elliptic.
 MOST_ELLIPSES = MOST_LOBES + 1
-# Sets of loads between which the energy is blended (energy.py).
+# Sets of loads between which the energy is blended (ritz.py).
 LOBES, ONE_MORE, MERGED = range(3)
 SETS = 3
 MOST_PATCHES = MOST_LOBES
@@ -41,6 +42,7 @@ STRIPS_A_LOBE = 20
 MOST_NODES = 320
 ENERGY = NORMAL_MODELS["energy"]
 HERTZ_LOCAL = NORMAL_MODELS["hertz-local"]
+RITZ = NORMAL_MODELS["ritz"]
 STRIPS = NORMAL_MODELS["strips"]
 VIRTUAL_PENETRATION = NORMAL_MODELS["virtual-penetration"]
 
@@ -177,6 +179,25 @@ LOAD = _record(
     ("ratio_by_t", "f8"), ("ratio_by_tt", "f8"),
     ("sunk", "f8"), ("lobe", "i8"), ("low", "i8"), ("high", "i8"),
 )  # fmt: skip
+# Lobes first to last as one gap (energy.py), on lines from begin to before end: the level and its
+# slope by the depth of the valley on either side; moments, their places in lines from begin; the
+# parabola's height [m] and half curvature [1/m], its depth; A and its relative slope; slope of
+# ln N by ln B; skew: (c_5 - c_3) B/H; energy [J] alone, and sunk by others, what is left of it.
+GROUP = _record(
+    ("first", "i8"), ("last", "i8"), ("begin", "i8"), ("end", "i8"),
+    ("level", "f8"), ("by_left", "f8"), ("by_right", "f8"),
+    ("k3", "f8"), ("k4", "f8"), ("k5", "f8"), ("c3", "f8"), ("c5", "f8"),
+    ("height", "f8"), ("lateral", "f8"), ("depth", "f8"), ("place", "f8"), ("along", "f8"),
+    ("relative", "f8"), ("slope", "f8"), ("skew", "f8"), ("energy", "f8"), ("sunk", "f8"),
+    ("load", "f8"), ("by_place", "f8"), ("flatter", "f8"),
+)  # fmt: skip
+# Between two lobes: its line; the separation and its derivatives by the depths of the valley and
+# of the lobe on either side; the level beside it and its slope; gain [J]: dU by the separation;
+# weight: dU by its depth through the levels [N].
+VALLEY = _numbers(
+    "place", "arc", "depth", "separation", "by_valley", "by_one", "by_two", "level", "level_slope",
+    "gain", "weight",
+)  # fmt: skip
 # First and last node of a range in which the penetration has been sampled.
 RANGE = _record(("first", "i8"), ("last", "i8"))
 # A set of loads: how many, the energy [J] and the weight of its forces.
@@ -208,7 +229,7 @@ WORK = _record(
     ("matrix", "f8", (3 * MOST_ELLIPSES, 3 * MOST_ELLIPSES + 1)),
     ("first_node", "i8"), ("final_node", "i8"), ("ranges", RANGE, (MOST_LOBES,)),
     ("gap", "f8", (6, MOST_LINES)), ("parts", "f8", (3, MOST_LINES)),
-    ("whole", WHOLE),
+    ("whole", WHOLE), ("groups", GROUP, (MOST_LOBES,)), ("valleys", VALLEY, (MOST_LOBES,)),
 )  # fmt: skip
 RESULT = _record(
     ("force", "f8", (3,)), ("moment", "f8", (3,)),

@@ -6,7 +6,7 @@ at a point of its central axis and of a moment M.n about n, the patch's twist: w
 a throat or flange patch lie at different leads and point different ways. The point is taken where
 the axis passes the wheel.
 
-The loads of a lobe, with the weights of their sets (energy.py), are one patch: the sum of their
+The loads of a lobe, with the weights of their sets (ritz.py), are one patch: the sum of their
 forces, and for the creep law the ellipse of their second moments, b^2/5 about the mean place, and
 of their mean a^2. So a second load comes and goes without a change in the number of patches. Of the
 load that stands for two lobes while they merge either has the part that it carries of the two. A
@@ -108,7 +108,8 @@ def _add_lobes(side, first, last, work):
 
 
 @compiled
-def _fill_patch(table, side, whole, foot, wrench, axle, gap, patch, share):
+def fill_patch(table, side, whole, foot, wrench, axle, gap, patch, share):
+    """Fill a patch and its share from the WHOLE of its loads and their wrench."""
     fy, fz, mx, my, mz = wrench[0], wrench[1], wrench[2], wrench[3], wrench[4]
     square = fy * fy + fz * fz
     force = math.sqrt(square)
@@ -150,7 +151,8 @@ def _fill_patch(table, side, whole, foot, wrench, axle, gap, patch, share):
 
 
 @compiled
-def _add_line(table, side, place, arc, axle, weight, wrench):
+def add_line(table, side, place, arc, axle, weight, wrench):
+    """Add a load on one line of force to a wrench."""
     fy, fz, mx, my, mz = line_of_force(table, side, place, arc, axle)
     wrench[0] += weight * fy
     wrench[1] += weight * fz
@@ -160,7 +162,7 @@ def _add_line(table, side, place, arc, axle, weight, wrench):
 
 
 @compiled
-def _roll_together(table, side, axle, lobes, shares, k, count, patches):
+def roll_together(table, side, axle, lobes, shares, k, count, patches):
     """Fill what patch k of `count` shares with the neighbour from which it is least separated."""
     share = shares[k]
     patch = patches[k]
@@ -214,7 +216,7 @@ def load_patches(table, side, found, axle, material, work, patches):
             arc = line.arc
             for _ in range(2):
                 _, _, _, arc = gap_on_normal(table, side, line.place, arc, axle)
-            _add_line(table, side, line.place, arc, axle, by_q * line.weight, spare)
+            add_line(table, side, line.place, arc, axle, by_q * line.weight, spare)
     forces = 0.0
     for m in range(SETS):
         for k in range(work.sets[m].count):
@@ -238,7 +240,7 @@ def load_patches(table, side, found, axle, material, work, patches):
         share = work.shares[kept]
         share.lobe = first
         share.last_lobe = last
-        _fill_patch(
+        fill_patch(
             table, side, whole, lobes[first].foot, wrench, axle, work.gap, patches[kept], share
         )
         total += whole.energy
@@ -246,5 +248,5 @@ def load_patches(table, side, found, axle, material, work, patches):
     # What the sum of weighted energies leaves of the whole, some thousandths, goes to all alike.
     for k in range(kept):
         patches[k].energy *= energy / total if total > 0.0 else 0.0
-        _roll_together(table, side, axle, lobes, work.shares, k, kept, patches)
+        roll_together(table, side, axle, lobes, work.shares, k, kept, patches)
     return kept

@@ -1,13 +1,12 @@
 """Sets of semi-ellipsoids that carry a wheel, and the blend of their energies.
 
-Equations (1) to (3) and why: energy.py. A set may have more than one place where Pi of (1) is
+Equations (1) to (3) and why: ritz.py. A set may have more than one place where Pi of (1) is
 stationary; U is the greatest of those found from several guesses (loads.py).
 
 Frame: track frame, left side; lengths in metres. Records LOAD, LOBE, SET, WORK: layout.py.
 """
 
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
-from exudyn_wheelset.contact.energy import MISFIT, stationary
 from exudyn_wheelset.contact.gap import gap_on_normal
 from exudyn_wheelset.contact.gap_spline import sample_lobes
 from exudyn_wheelset.contact.layout import LOBES, MERGED, MOST_ELLIPSES, ONE_MORE, SETS
@@ -20,6 +19,7 @@ from exudyn_wheelset.contact.loads import (
     misfit_of,
     rises,
 )
+from exudyn_wheelset.contact.ritz import MISFIT, stationary
 
 # A second load that gains less has not been found where it is.
 NO_GAIN = 1.0e-5

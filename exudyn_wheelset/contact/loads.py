@@ -1,6 +1,6 @@
 """First guesses of the semi-ellipsoids that carry a wheel: of a lobe, and of a second one in it.
 
-Equation (1) and why: energy.py. They only have to be near its solution.
+Equation (1) and why: ritz.py. They only have to be near its solution.
 
 Frame: track frame, left side; lengths in metres. Records LOAD, LOBE, WORK: layout.py.
 """
@@ -9,8 +9,8 @@ import math
 
 from exudyn_wheelset.compilation import compiled
 from exudyn_wheelset.contact.ellipsoids import field, fill
-from exudyn_wheelset.contact.energy import look_along
 from exudyn_wheelset.contact.gap_spline import LEVEL, primitives_at, spline_depth
+from exudyn_wheelset.contact.ritz import look_along
 
 # A parabola is so much wider at zero than at the level where a lobe's zone ends.
 TO_ZERO = 1.0 / math.sqrt(1.0 - LEVEL)

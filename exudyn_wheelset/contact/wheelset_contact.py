@@ -30,7 +30,12 @@ from exudyn_wheelset.contact.descriptions import (
 from exudyn_wheelset.contact.forces_apart import FORCES, wheelset_forces
 from exudyn_wheelset.contact.friction import frictions
 from exudyn_wheelset.contact.layout import Axle, Patch, Velocity
-from exudyn_wheelset.contact.sides_apart import ENERGY_SIDE, STRIP_SIDE, STRIP_TRACTION
+from exudyn_wheelset.contact.sides_apart import (
+    ENERGY_SIDE,
+    RITZ_SIDE,
+    STRIP_SIDE,
+    STRIP_TRACTION,
+)
 from exudyn_wheelset.contact.tables import contact_tables
 from exudyn_wheelset.creep import creep_law, creep_parameters
 from exudyn_wheelset.creep.exact_apart import EXACT_LAW
@@ -99,6 +104,8 @@ def _get_ready(contact: Contact) -> None:
     """Compile what a contact needs: whoever runs the kernels comes by for their parameters."""
     FORCES.ready()
     CREEP.ready()
+    if contact.normal == "ritz":
+        RITZ_SIDE.ready()
     if contact.normal == "energy":
         ENERGY_SIDE.ready()
     if contact.normal == "strips":
@@ -197,11 +204,13 @@ def contact_energy(
     pose: Sequence[float],
     shear_modulus: float = Contact.shear_modulus,
     poisson: float = Contact.poisson,
+    normal: str = "energy",
 ) -> float:
-    """Return the elastic energy [J] that the rails store in a pose, by the normal model "energy".
+    """Return the elastic energy [J] that the rails store in a pose, by "energy" or "ritz".
 
     pose, shear_modulus [Pa], poisson: as in `contact_forces`, whose normal forces with
-    normal="energy" are minus the gradient of this energy. Source: contact/energy.py.
+    that `normal` are minus the gradient of this energy; other normal models have none, a
+    WheelsetError. Source: contact/energy.py, contact/ritz.py.
 
     Examples
     --------
@@ -211,8 +220,12 @@ def contact_energy(
     >>> round(contact_energy(axle, track, (0, 0, z - 1e-4, 0, 0, 0)))  # pressed in by 0.1 mm [J]
     12
     """
+    if normal not in ("energy", "ritz"):
+        raise WheelsetError(
+            f'normal = {normal!r}: its forces are no gradient; give "energy" or "ritz"'
+        )
     forces = contact_forces(
-        wheelset, track, pose, (0.0,) * 6, normal="energy", friction=0.0,
+        wheelset, track, pose, (0.0,) * 6, normal=normal, friction=0.0,
         shear_modulus=shear_modulus, poisson=poisson,
     )  # fmt: skip
     return sum(patch.energy for patch in (*forces.left, *forces.right))

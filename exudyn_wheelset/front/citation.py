@@ -77,6 +77,7 @@ _NORMAL = {
     "hertz-local": ("hertz",),
     "virtual-penetration": ("kik",),
     "energy": ("hertz",),
+    "ritz": ("hertz",),
     "strips": ("hertz", "kik"),
 }
 _VEHICLES = {

@@ -14,8 +14,8 @@ from exudyn_wheelset.spelling import spelt
 def warm_up(everything: bool = False, progress: bool = False) -> float:
     """Load or compile the kernels of a wheelset on its rails; return the seconds [s] it took.
 
-    everything: those of the normal models "energy" and "strips", of the creep law "exact" and of
-    vehicles and their analyses as well; otherwise they are compiled at their first use.
+    everything: those of the normal models "energy", "ritz" and "strips", of the creep law "exact"
+    and of vehicles and their analyses as well; otherwise they are compiled at their first use.
     progress: shows a bar. Kernels are compiled once after an installation and kept in the user's
     cache folder (NUMBA_CACHE_DIR names another); loading them takes a few tenths of a second.
 
@@ -29,7 +29,7 @@ def warm_up(everything: bool = False, progress: bool = False) -> float:
     steps: dict[str, Callable[[], None]] = {"contact of a wheelset": _contact}
     if everything:
         steps |= {
-            "energy": _energy,
+            "energies": _energies,
             "strips": _strips,
             "exact creep law": _exact,
             "creep laws": _creep_laws,
@@ -47,8 +47,9 @@ def _contact() -> None:
     _forces("hertz")
 
 
-def _energy() -> None:
+def _energies() -> None:
     _forces("energy")
+    _forces("ritz")
 
 
 def _forces(normal: str) -> None:
