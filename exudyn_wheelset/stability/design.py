@@ -8,6 +8,7 @@ time; then the speeds are computed anew.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -82,7 +83,8 @@ def design(
     >>> [round(float(value), 4) for value in found.changes["conicity"]]
     [0.05, 0.0482]
     """
-    refuse_options(nonlinear_critical_speed, options)
+    known = inspect.signature(nonlinear_critical_speed).parameters
+    refuse_options(nonlinear_critical_speed, [name for name in options if name not in known])
     for name in wanted:
         if name not in SPEEDS:
             raise AnalysisError(f"{name!r} cannot be asked for: give {' or '.join(SPEEDS)}")
