@@ -36,6 +36,7 @@ from exudyn_wheelset import (
     save_vehicle,
 )
 from exudyn_wheelset.front.vehicle_options import named_vehicle
+from exudyn_wheelset.profiles import shapes
 from exudyn_wheelset.track.files import write_layout
 from exudyn_wheelset.track.irregularity import Irregularity
 from exudyn_wheelset.track.layout import Curve, Layout, Straight, Transition
@@ -196,6 +197,13 @@ def test_profiles_of_ones_own_come_back_equal(tmp_path):
     rail = load_profile("UIC60").smoothed(1e-5)
     vehicle = wagon(wheel=worn, rail=rail)
     assert load_vehicle(written(vehicle, tmp_path)[1]) == vehicle
+
+
+def test_a_cone_whose_name_is_that_of_another_comes_back_equal(tmp_path):
+    """Names have six digits: cone_0.062147 is shipped, and so is what "cone_0.062147 2" means."""
+    vehicle = wagon(wheel=shapes.cone(0.0621470123))
+    _, path = written(vehicle, tmp_path)
+    assert load_vehicle(path) == vehicle
 
 
 def test_profile_files_are_found_beside_the_vehicle_file(tmp_path, monkeypatch):

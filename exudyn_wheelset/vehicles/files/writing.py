@@ -76,7 +76,8 @@ def vehicle_text(vehicle: Vehicle, description: str = "") -> str:
         key, number = profile.name, 1
         while profiles.get(key, profile) != profile or _is_shipped(key):
             number += 1
-            key = f"{profile.name} {number}"
+            # In brackets: "cone_0.05 2" would be the cone of 0.052.
+            key = f"{profile.name} ({number})"
         profiles[key] = profile
         return key
 
