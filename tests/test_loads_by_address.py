@@ -29,7 +29,7 @@ def copying_loads(mbs):
                 contact.forget()
                 arrays = (q, v, table, state, track)
                 sizes = (len(q), len(table), len(state), len(track))
-                block = np.array([*map(address_of, arrays), *sizes, first, part], dtype=np.int64)
+                block = np.array([*map(address_of, arrays), *sizes, first, part, 0], dtype=np.int64)
                 return wrench_at(address_of(block), t)
 
             mbs.SetLoadParameter(load, "loadVectorUserFunction", wrench)

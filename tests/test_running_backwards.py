@@ -9,7 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from exudyn_wheelset import catalogue, linear_critical_speed, linearise
+from exudyn_wheelset import (
+    Track,
+    Wheelset,
+    catalogue,
+    contact_forces,
+    linear_critical_speed,
+    linearise,
+)
+from exudyn_wheelset.creep import CREEP_LAWS
 
 
 def turned(vehicle):
@@ -58,3 +66,41 @@ def test_an_unsymmetric_car_has_not():
     car = replace(car, connections=soft)
     assert np.abs(roots(turned(car))[:4] - roots(car)[:4]).max() > 1e-3
     np.testing.assert_array_equal(roots(turned(turned(car))), roots(car))
+
+
+def mirrored(vector):
+    """A rotation, a rate of one or a moment seen in a mirror across the track."""
+    return vector * np.array([1.0, -1.0, -1.0])
+
+
+@pytest.mark.parametrize(
+    ("normal", "creep"),
+    [("hertz", law) for law in CREEP_LAWS] + [("strips", "fastsim"), ("energy", "exact-table")],
+)
+def test_forces_backwards_are_those_forwards_in_a_mirror(normal, creep):
+    """Rolling on cones with spin, yawed, off the middle: camber thrust keeps its side."""
+    wheelset = Wheelset(mass=1000.0, inertia=(600.0, 80.0, 600.0), radius=0.46, wheel="S1002")
+    rotation, velocity = np.array([2e-4, 0.0, 3e-3]), np.array([20.0, 0.02, 0.0])
+    rates = np.array([0.0, 20.0 / 0.46 * 1.001, 0.01])
+    mirror = np.array([-1.0, 1.0, 1.0])
+    found = [
+        contact_forces(
+            wheelset, Track("UIC60"), (0.0, 3e-3, -8e-5, *turn), (*along, *about),
+            normal=normal, creep=creep,
+        )
+        for turn, along, about in (
+            (rotation, velocity, rates),
+            (mirrored(rotation), mirror * velocity, mirrored(rates)),
+        )
+    ]  # fmt: skip
+    forwards, backwards = found
+    assert abs(forwards.force[1]) > 10.0
+    np.testing.assert_allclose(backwards.force, mirror * forwards.force, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(backwards.moment, mirrored(forwards.moment), rtol=1e-9, atol=1e-6)
+
+
+def test_negative_speed_is_the_vehicle_turned():
+    """By the creep law whose lateral force follows spin most closely."""
+    car = catalogue.dtu_car(creep="exact-table")
+    soft = car.replace("bodies.front frame.mass", 1.5 * car.bodies[1].mass)
+    np.testing.assert_allclose(roots(soft, -40.0), roots(turned(soft), 40.0), rtol=1e-4, atol=1e-4)

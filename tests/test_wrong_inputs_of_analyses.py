@@ -78,6 +78,10 @@ SETTINGS = {
 }
 ANALYSES = {
     "eigenvalues at rest": (lambda: ew.linearise("s1002", 0.0), ["0.0 m/s", "other than 0"]),
+    "motion of equations divided by the speed": (
+        lambda: ew.simulate(ew.LateralWheelset(), 0.0, 0.1),
+        ["0.0 m/s", "other than 0"],
+    ),
     "root locus from rest": (lambda: ew.root_locus("s1002", [0, 20]), ["0.0 m/s", "other than 0"]),
     "descent by a word": (lambda: descent(step="small"), ["step", "small", "in m/s"]),
     "descent upwards": (lambda: descent(0.6, 0.9), ["0.6", "0.9", "above"]),

@@ -33,7 +33,7 @@ import math
 
 from exudyn_wheelset.addresses import numbers_at
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
-from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
+from exudyn_wheelset.contact.creepage import creepage_at, direction, slip_velocity
 from exudyn_wheelset.contact.friction import patch_friction
 from exudyn_wheelset.contact.layout import (
     ENERGY,
@@ -218,7 +218,7 @@ def _wheelset_forces(table, axle, velocity, rail_motion, parameters, result):
                 creep = Traction(fx, gy, gz, mx, my, mz)
             else:
                 fx, fy, mz = _patch_creep(k, patches, shares, count, options)
-                creep = Traction(fx, fy, 0.0, 0.0, 0.0, mz)
+                creep = Traction(fx, fy, 0.0, 0.0, 0.0, direction(slip) * mz)
             along_normal = patch.normal_force * shares[k].damping + creep.normal
             gy = nz * creep.lateral + ny * along_normal
             gz = -ny * creep.lateral + nz * along_normal

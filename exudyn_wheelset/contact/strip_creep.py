@@ -17,7 +17,7 @@ Frame: track frame, left side.
 import math
 
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
-from exudyn_wheelset.contact.creepage import creepage_at
+from exudyn_wheelset.contact.creepage import creepage_at, direction
 from exudyn_wheelset.contact.layout import Traction
 from exudyn_wheelset.creep.fastsim import flexibilities, slip_step
 
@@ -103,7 +103,7 @@ def strip_traction(strips, share, patch, slip, parameters):
         fx = area * px
         fy = area * pt * strip.normal_z
         fz = -area * pt * strip.normal_y
-        spin_moment = area * lever * a
+        spin_moment = direction(slip) * area * lever * a
         dx = strip.x - patch.position[0]
         dy = strip.y - patch.position[1]
         dz = strip.z - patch.position[2]

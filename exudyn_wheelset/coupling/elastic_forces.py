@@ -17,7 +17,7 @@ import numpy as np
 
 from exudyn_wheelset.addresses import numbers_at
 from exudyn_wheelset.compilation import AS_REAL_NUMBERS, compiled
-from exudyn_wheelset.contact.creepage import creepage_at, slip_velocity
+from exudyn_wheelset.contact.creepage import creepage_at, direction, slip_velocity
 from exudyn_wheelset.contact.forces import (
     LEAST_SPEED,
     _axes_along,
@@ -91,6 +91,7 @@ def _slip_of_side(hand, slip, rate_y, rate_z, parameters, options, result, out, 
             traction[2], traction[3], traction[4] = fz, mx, my
         else:
             fx, fy, mz = _patch_creep(k, patches, shares, count, options)
+            mz *= direction(slip)
         traction[0], traction[1], traction[5] = fx, fy, mz
         ny, nz = patch.normal[1], patch.normal[2]
         along_normal = patch.normal_force * shares[k].damping + traction[2]

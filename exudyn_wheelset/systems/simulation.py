@@ -40,6 +40,7 @@ from exudyn_wheelset.systems.exudyn_running import Runner, sampled
 from exudyn_wheelset.systems.exudyn_system import ExudynSystem
 from exudyn_wheelset.systems.exudyn_wheelsets import rolling_radii
 from exudyn_wheelset.systems.fitting import check_curves
+from exudyn_wheelset.systems.speeds import checked_speed
 from exudyn_wheelset.systems.starts import shifted_state
 from exudyn_wheelset.systems.system import DynamicSystem, SimulationError, as_system
 from exudyn_wheelset.systems.vehicle_system import VehicleSystem
@@ -118,6 +119,8 @@ def simulate(
             "give them where it is made"
         )
     system = as_system(vehicle, **given)
+    if not isinstance(system, ExudynSystem):
+        speed = checked_speed(system, "speed", speed)
     wheelsets = system.wheelsets if isinstance(system, ExudynSystem) else ()
     station, initial = _station(wheelsets, start, initial)
     if isinstance(system, ExudynSystem):
