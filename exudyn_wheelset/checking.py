@@ -95,7 +95,7 @@ def numbers(
     )
 
 
-def finite_array(what: str, values: Any, unit: str) -> NDArray[np.float64]:
+def finite_array(what: str, values: Any, unit: str, mend: str = "") -> NDArray[np.float64]:
     """`values`, a number or any shape of numbers in `unit`, as a new array of finite floats.
 
     Raises WheelsetError; texts are refused even where they spell numbers, True and False as well.
@@ -109,7 +109,8 @@ def finite_array(what: str, values: Any, unit: str) -> NDArray[np.float64]:
     except (TypeError, ValueError) as error:
         raise WheelsetError(f"{what} = {values!r}: give numbers{shown} ({error})") from None
     if not np.isfinite(result).all():
-        raise WheelsetError(f"{what} = {values!r}: give finite numbers{shown}")
+        mend = f"; {mend}" if mend else ""
+        raise WheelsetError(f"{what} = {values!r}: give finite numbers{shown}{mend}")
     return result
 
 

@@ -127,7 +127,7 @@ def test_foot_on_the_rail_is_the_nearest_point(s1002):
 
 
 def test_velocity_and_creepage_of_a_particle():
-    """v + omega x r; across the normal's tangent n x e_x; spin about the normal; all over V."""
+    """v + omega x r; across along n x e_x; spin about the normal, over V with its sign."""
     random = np.random.default_rng(5)
     for _ in range(20):
         velocity, rates, place = random.normal(size=(3, 3))
@@ -138,5 +138,6 @@ def test_velocity_and_creepage_of_a_particle():
         normal = np.array([0.0, math.sin(angle), math.cos(angle)])
         tangent = np.cross(normal, [1.0, 0.0, 0.0])
         creep = creepage_at(slip, *place, normal[1], normal[2])
-        wanted = np.array([particle[0], particle @ tangent, rates @ normal]) / speed
+        spin = math.copysign(1.0, velocity[0]) * (rates @ normal)
+        wanted = np.array([particle[0], particle @ tangent, spin]) / speed
         np.testing.assert_allclose([creep.x, creep.y, creep.spin], wanted, atol=1e-14)

@@ -20,7 +20,7 @@ from exudyn_wheelset.systems.system import DynamicSystem
 
 MODELS = Path(__file__).parents[1] / "models"
 BOGIE = {"right_hand_sides": 85_732, "jacobians": 14_384, "newton_steps": 307}
-S1002 = {"right_hand_sides": 79_200, "jacobians": 11_900, "newton_steps": 645}
+S1002 = {"right_hand_sides": 72_600, "jacobians": 11_000, "newton_steps": 608}
 
 
 def load(name):

@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from exudyn_wheelset import Track, Wheelset
-from exudyn_wheelset.contact import energy, gap
+from exudyn_wheelset.contact import gap, ritz
 from exudyn_wheelset.contact.curve import curve_point
 from exudyn_wheelset.contact.ellipsoids import mean_distance
 from exudyn_wheelset.contact.gap_spline import _primitives
@@ -242,7 +242,7 @@ def written_down(x, work, bounds):
     loads = loads_at(x, bounds)
     total = 0.0
     for load in loads:
-        plain(energy._look)(TABLE, LEFT, load, work, MODULUS)
+        plain(ritz._look)(TABLE, LEFT, load, work, MODULUS)
         total += load.force * (load.average - load.work)
     for k, one in enumerate(loads):
         for two in loads[k + 1 :]:
@@ -256,8 +256,8 @@ def equations(x, work, bounds):
     """Energy, matrix, right side; the loads as they are then."""
     loads = loads_at(x, bounds)
     for load in loads:
-        plain(energy._look)(TABLE, LEFT, load, work, MODULUS)
-    total = plain(energy._equations)(loads, len(loads), MODULUS, work)
+        plain(ritz._look)(TABLE, LEFT, load, work, MODULUS)
+    total = plain(ritz._equations)(loads, len(loads), MODULUS, work)
     size = 3 * len(loads)
     return total, work.matrix[:size, :size].copy(), work.matrix[:size, size].copy(), loads
 
@@ -338,12 +338,12 @@ def test_elimination_solves_a_matrix_that_is_negative_and_leads_uphill_otherwise
         matrix = -(full @ full.T) - 0.1 * np.eye(6)
         right = rng.normal(size=6)
         work = np.column_stack([matrix, right])
-        plain(energy._solve)(loads, 2, work)
+        plain(ritz._solve)(loads, 2, work)
         np.testing.assert_allclose(work[:, 6], np.linalg.solve(matrix, right), rtol=1e-9)
         # The last column is minus the gradient: a step uphill has a product below zero with it.
         saddle = matrix + (trial % 4 + 1) * np.eye(6)
         work = np.column_stack([saddle, right])
-        plain(energy._solve)(loads, 2, work)
+        plain(ritz._solve)(loads, 2, work)
         assert work[:, 6] @ right < 0.0
 
 
@@ -356,7 +356,7 @@ def test_loads_are_found_where_the_energy_is_greatest(name):
         x = np.array(GUESSES[name])
         x += rng.uniform(-0.15, 0.15, x.size) * np.tile([1.0, 1.0, 2e-3], x.size // 3)
         loads = loads_at(x, bounds)
-        found, total = plain(energy.stationary)(TABLE, LEFT, loads, len(loads), MODULUS, work)
+        found, total = plain(ritz.stationary)(TABLE, LEFT, loads, len(loads), MODULUS, work)
         assert found == len(loads)
         place = np.array([[load.t, math.log(load.b), load.place] for load in loads]).ravel()
         assert total == pytest.approx(written_down(place, work, bounds), rel=1e-6)
@@ -374,7 +374,7 @@ def test_one_load_in_a_parabola_takes_two_fifths_of_force_times_depth():
     bend, deep, top = 2.7, 7e-5, MIDDLE + 0.4e-3
     work, *bounds = room(lambda s: deep - bend * (s - top) ** 2)
     loads = loads_at(np.array([0.1, math.log(4e-3), MIDDLE]), bounds)
-    found, total = plain(energy.stationary)(TABLE, LEFT, loads, 1, MODULUS, work)
+    found, total = plain(ritz.stationary)(TABLE, LEFT, loads, 1, MODULUS, work)
     (load,) = loads
     assert found == 1
     assert load.lateral == pytest.approx(bend, rel=1e-4)
@@ -388,10 +388,10 @@ def test_a_load_that_has_nothing_to_carry_is_taken_out():
     work, *bounds = room()
     x = np.array([0.4, math.log(3.1e-3), MIDDLE - 3.2e-3, 0.9, math.log(1e-5), MIDDLE + 9e-3])
     loads = loads_at(x, bounds)
-    found, total = plain(energy.stationary)(TABLE, LEFT, loads, 2, MODULUS, work)
+    found, total = plain(ritz.stationary)(TABLE, LEFT, loads, 2, MODULUS, work)
     alone = loads_at(x[:3], bounds)
     assert found == 1
-    expected = plain(energy.stationary)(TABLE, LEFT, alone, 1, MODULUS, work)[1]
+    expected = plain(ritz.stationary)(TABLE, LEFT, alone, 1, MODULUS, work)[1]
     assert total == pytest.approx(expected, rel=1e-6)
 
 

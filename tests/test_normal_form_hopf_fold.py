@@ -18,8 +18,9 @@ from exudyn_wheelset.stability.hunting.continuation import ContinuationSettings
 from exudyn_wheelset.stability.hunting.disturbance import critical_disturbance
 from exudyn_wheelset.stability.hunting.limit_cycles import limit_cycles
 from exudyn_wheelset.stability.hunting.measured_growth import measured_growth
-from exudyn_wheelset.stability.hunting.nonlinear import _simulated_fold, nonlinear_critical_speed
+from exudyn_wheelset.stability.hunting.nonlinear import nonlinear_critical_speed
 from exudyn_wheelset.stability.hunting.orbit import Orbit
+from exudyn_wheelset.stability.hunting.simulated_stability import simulated_fold
 from exudyn_wheelset.stability.linear.crossings import hopf_points
 from exudyn_wheelset.systems.function_system import FunctionSystem
 
@@ -170,14 +171,14 @@ def test_motion_decides_beside_a_fold_on_either_side_of_it():
         index = fold.index if order == 1 else len(found) - 1 - fold.index
         branch.folds = (replace(fold, index=index),)
         branch.uncertain[index + order] = True
-        assert _simulated_fold(system, branch, 0.0) == fold == pytest.approx(-0.25, abs=1e-6)
-        assert _simulated_fold(system, branch, -0.3) is None
+        assert simulated_fold(system, branch, 0.0) == fold == pytest.approx(-0.25, abs=1e-6)
+        assert simulated_fold(system, branch, -0.3) is None
         branch.uncertain[:] = False
-        assert _simulated_fold(system, branch, 0.0) is None
+        assert simulated_fold(system, branch, 0.0) is None
 
 
 class Orbits:
-    """What `_simulated_fold` asks of a branch."""
+    """What `simulated_fold` asks of a branch."""
 
     def __init__(self, orbits):
         self.orbits, self.uncertain, self.folds = orbits, np.zeros(len(orbits), dtype=bool), ()

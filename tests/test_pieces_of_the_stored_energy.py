@@ -1,4 +1,4 @@
-"""Pieces of the stored energy (contact/energy.py), each by its definition and by slow quadrature.
+"""Pieces of Ritz's stored energy (contact/ritz.py), each by its definition and by slow quadrature.
 
 Energy and shape of one semi-ellipsoid by complete elliptic integrals; two in each other's field by
 convolution and quadrature; means of a cubic penetration in closed form; the equations as the

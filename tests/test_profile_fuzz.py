@@ -147,7 +147,7 @@ def options_of(chance):
     if chance.random() < 0.2:
         options["smoothing"] = chance.choice((1e-9, 1e-6, 1e-4, 1e-3, "auto"))
     if chance.random() < 0.2:
-        options["outlier_tolerance"] = chance.choice((1e-12, 1e-6, 1e-4, 1.0))
+        options["outlier_tolerance"] = chance.choice((1e-12, 1e-6, 1e-4, 1e-2))
     if chance.random() < 0.2:
         options["side"] = "right"
     if chance.random() < 0.1:

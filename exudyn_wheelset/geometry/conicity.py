@@ -335,20 +335,14 @@ def _rests(y: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _checked(y: ArrayLike, difference: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    shifts = finite_array("y", y, "m")
-    heights = finite_array("rolling_radius_difference", difference, "m")
+    mend = "leave out shifts without contact"
+    shifts = finite_array("y", y, "m", mend)
+    heights = finite_array("rolling_radius_difference", difference, "m", mend)
     if shifts.ndim != 1 or shifts.shape != heights.shape or len(shifts) < 3:
         raise WheelsetError(
             f"y has the shape {shifts.shape}, rolling_radius_difference {heights.shape}: give two "
             "arrays of equal length with three values or more"
         )
-    for what, values in (("y", shifts), ("rolling_radius_difference", heights)):
-        bad = np.flatnonzero(~np.isfinite(values))
-        if len(bad):
-            raise WheelsetError(
-                f"{what}[{bad[0]}] = {values[bad[0]]}: leave out shifts without contact; every "
-                "value must be a finite number in m"
-            )
     bad = np.flatnonzero(np.diff(shifts) <= 0.0)
     if len(bad):
         raise WheelsetError(
