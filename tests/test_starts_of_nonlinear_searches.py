@@ -85,3 +85,9 @@ def test_motion_decides_where_the_stability_of_orbits_is_uncertain():
     assert speed == lowest and "on which simulated motion stays" in what
     only_lower = replace(open_ones, uncertain=between & ~upper)
     assert only_lower.uncertain.any() and simulated_below(system, only_lower, 0.96, 0.1) is None
+
+
+def test_the_search_begins_where_it_is_told_to_below_the_usual_speeds_too():
+    found = nonlinear_critical_speed(fold_system(1e-2), low=0.5, check=False)
+    assert found.speed == pytest.approx(FOLD, abs=1e-4)
+    assert found.hopf.speed == pytest.approx(HOPF, abs=1e-4)

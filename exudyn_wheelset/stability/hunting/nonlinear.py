@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -361,7 +362,9 @@ def _first_hopf(system: Any, low: float | None, high: float | None) -> CriticalP
     if high is not None:
         ranges = ((5.0 if low is None else low, high),)
     elif low is not None:
-        ranges = tuple((max(a, low), b) for a, b in SEARCH if b > low)
+        # From `low` itself, below the usual speeds and beyond them too.
+        ends = [low, *(b for _, b in SEARCH if b > low)]
+        ranges = tuple(pairwise(ends)) or ((low, 2.0 * low),)
     for first, last in ranges:
         for point in hopf_points(system, first, last):
             if point.direction == "loses stability":
