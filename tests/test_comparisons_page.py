@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "docs" / "figures"))
 import make_comparisons as script  # noqa: E402
+from comparisons import OWN  # noqa: E402
 
 SECTIONS = script.sections_of(script.PAGE.read_text(encoding="utf-8"))
 # The others take seconds: half-space solutions of 475 states, nine searches for a speed.
@@ -43,7 +44,7 @@ def test_a_section_has_source_date_versions_and_rows(one):
 
 def test_every_reference_file_of_the_project_is_compared_with():
     sources = " ".join(one.source for one in script.COMPARISONS)
-    assert [p.name for p in script.OWN.glob("*.csv") if p.name not in sources] == []
+    assert [p.name for p in OWN.glob("*.csv") if p.name not in sources] == []
 
 
 @pytest.mark.parametrize("one", QUICK, ids=lambda one: one.title)

@@ -123,7 +123,11 @@ GROUPS = {
     ),
     "energy": Group(
         _ENERGY,
-        ("test_pieces_of_the_stored_energy.py", "test_lines_of_force_and_equations.py"),
+        (
+            "test_pieces_of_the_stored_energy.py",
+            "test_lines_of_force.py",
+            "test_equations_of_the_loads.py",
+        ),
         compiled=False,
     ),
     "energy-of-wheels": Group(
@@ -141,7 +145,8 @@ GROUPS = {
         (
             "test_contact_scan.py",
             "test_contact_locus_of_a_turned_wheel.py",
-            "test_lines_of_force_and_equations.py",
+            "test_lines_of_force.py",
+            "test_equations_of_the_loads.py",
             "test_wheel_values_by_hand.py",
         ),
         compiled=False,
