@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from creep_reference import PATCH, spin_set
+from fastsim_strip_by_strip import fastsim
 from scipy.integrate import quad
 
 from exudyn_wheelset.creep import creep_force, creep_parameters, kalker_coefficients
-from exudyn_wheelset.creep.fastsim import fastsim, slip_step
+from exudyn_wheelset.creep.fastsim import slip_step
 from exudyn_wheelset.creep.fastsim_rows import fastsim_rows
 from exudyn_wheelset.errors import WheelsetError
 

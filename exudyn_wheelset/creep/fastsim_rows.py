@@ -1,6 +1,6 @@
 """FASTSIM's march with all strips abreast: what creep laws are called with.
 
-The numbers are those of `fastsim` in fastsim.py, which marches one strip after the other, to
+The numbers are those of one strip after the other (tests/fastsim_strip_by_strip.py), to
 rounding (1e-14 of the friction force in wheel contacts, 1e-9 where traction hardly turns). A cell
 that slips costs six divisions, three roots and an exponential, each waiting for the one before;
 cells side by side wait for nothing, so that the processor does several at once: a patch that slips
